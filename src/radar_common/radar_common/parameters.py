@@ -14,6 +14,7 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Self, get_type_hints
 
 import yaml
@@ -123,7 +124,7 @@ def describe(cls: type[Parameters]) -> list[Description]:
     ]
 
 
-def from_file(cls: type[Parameters], path: str, node: str) -> Any:
+def from_file(cls: type[Parameters], path: str | Path, node: str) -> Any:
     """Read a set from a ROS 2 parameter file.
 
     Args:
@@ -138,8 +139,7 @@ def from_file(cls: type[Parameters], path: str, node: str) -> Any:
         ParameterError: the file is not of that form, or a value is impossible.
     """
     try:
-        with open(path, encoding="utf-8") as file:
-            content = yaml.safe_load(file) or {}
+        content = yaml.safe_load(Path(path).read_text(encoding="utf-8")) or {}
     except (OSError, yaml.YAMLError) as error:
         raise ParameterError(f"parameter file {path}: {error}") from error
     if not isinstance(content, dict):
@@ -188,8 +188,8 @@ def to_markdown(cls: type[Parameters]) -> str:
 
 
 def _check(item: Description, value: Any) -> None:
-    if item.kind is float and isinstance(value, int) and not isinstance(value, bool):
-        return _check(item, float(value))
+    if item.kind is float and type(value) is int:
+        value = float(value)
     if type(value) is not item.kind:
         raise ParameterError(f"{item.name} must be {item.kind.__name__}, got {value!r}")
     if item.choices and value not in item.choices:
