@@ -146,7 +146,12 @@ def from_file(cls: type[Parameters], path: str | Path, node: str) -> Any:
         raise ParameterError(f"parameter file {path}: no sections by node name")
     values: dict[str, Any] = {}
     for section in ("/**", node, f"/{node}"):
-        values |= (content.get(section) or {}).get("ros__parameters") or {}
+        try:
+            values |= (content.get(section) or {}).get("ros__parameters") or {}
+        except (AttributeError, TypeError) as error:
+            raise ParameterError(
+                f"parameter file {path}: section {section} has no ros__parameters"
+            ) from error
     values.pop("use_sim_time", None)
     return cls().changed({k: v for k, v in values.items() if not k.startswith("qos_overrides")})
 
