@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The chain as a user starts it: one process a node, joined by topics, recorded by `ros2 bag record`."""
+
+from __future__ import annotations
+
+import re
+import signal
+import subprocess
+import threading
+from collections.abc import Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+STOP_TIMEOUT = 15.0
+START_TIMEOUT = 60.0
+
+
+class ChainError(RuntimeError):
+    """A process of the chain did not start or failed."""
+
+
+class RosProcess:
+    """A `ros2` command in the background whose output is kept in a log, as a context manager."""
+
+    def __init__(self, arguments: Sequence[str], log: Path) -> None:
+        """Remember what to start.
+
+        Args:
+            arguments: command line after `ros2`.
+            log: file that takes the output.
+        """
+        self._command = ["ros2", *arguments]
+        self._log = log
+        self._lines: list[str] = []
+        self._ended = False
+        self._changed = threading.Condition()
+
+    def __enter__(self) -> Self:
+        """Start the process in a group of its own, so that an interrupt reaches it only from here."""
+        self._process = subprocess.Popen(
+            self._command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Interrupt the process as Ctrl-C would, and kill it if it does not end."""
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+        try:
+            self._process.wait(STOP_TIMEOUT)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._reader.join(STOP_TIMEOUT)
+
+    def wait_for(self, pattern: str, timeout: float = START_TIMEOUT) -> None:
+        """Wait until a line of the output matches.
+
+        Args:
+            pattern: regular expression.
+            timeout: seconds.
+
+        Raises:
+            ChainError: the process ended or the time passed before.
+        """
+
+        def seen() -> bool:
+            return any(re.search(pattern, line) for line in self._lines)
+
+        with self._changed:
+            self._changed.wait_for(lambda: seen() or self._ended, timeout)
+            if not seen():
+                raise ChainError(f"{' '.join(self._command)}: no {pattern!r}; see {self._log}")
+
+    def wait(self, timeout: float) -> None:
+        """Wait for the process to end by itself.
+
+        Args:
+            timeout: seconds.
+
+        Raises:
+            ChainError: it failed or took longer.
+        """
+        try:
+            code = self._process.wait(timeout)
+        except subprocess.TimeoutExpired as error:
+            raise ChainError(
+                f"{' '.join(self._command)}: still running; see {self._log}"
+            ) from error
+        if code:
+            raise ChainError(f"{' '.join(self._command)}: exit code {code}; see {self._log}")
+
+    def _read(self) -> None:
+        assert self._process.stdout is not None
+        with self._log.open("w", encoding="utf-8") as log:
+            for line in self._process.stdout:
+                log.write(line)
+                log.flush()
+                with self._changed:
+                    self._lines.append(line)
+                    self._changed.notify_all()
+        with self._changed:
+            self._ended = True
+            self._changed.notify_all()
+
+
+def record_live_chain(
+    bag: Path, logs: Path, *, scenario: str, scans: int, rate: float, seed: int
+) -> None:
+    """Run simulator, extractor and tracker as three processes and record what they say.
+
+    Args:
+        bag: folder of the new bag with plots, tracks and truth.
+        logs: folder for the output of each process.
+        scenario: name or file of the simulator's scenario.
+        scans: antenna turns to run.
+        rate: simulated seconds a second.
+        seed: of the simulator.
+
+    Raises:
+        ChainError: a process did not start or failed.
+    """
+    logs.mkdir(parents=True, exist_ok=True)
+    # The simulator outruns real time here: a sweep lost by best effort would be the demo's fault, not the chain's.
+    reliable = ["-p", "qos_overrides./radar/sweeps.subscription.reliability:=reliable"]
+    topics = ["/radar/plots", "/radar/tracks", "/truth"]
+    simulator = {
+        "scenario": scenario,
+        "scans": scans,
+        "rate": rate,
+        "seed": seed,
+        "wait_for_subscribers": 1,
+        "wait_for_truth_subscribers": 1,
+    }
+    settings = [part for k, v in simulator.items() for part in ("-p", f"{k}:={v}")]
+    with ExitStack() as stack:
+        recorder = stack.enter_context(
+            RosProcess(["bag", "record", "-o", str(bag), *topics], logs / "recorder.log")
+        )
+        for package, node, extra in (
+            ("secondary_proc", "tracker", []),
+            ("primary_proc", "plot_extractor", ["--ros-args", *reliable]),
+        ):
+            stack.enter_context(RosProcess(["run", package, node, *extra], logs / f"{node}.log"))
+        recorder.wait_for("'/radar/tracks'")
+        recorder.wait_for("'/radar/plots'")
+        source = stack.enter_context(
+            RosProcess(
+                ["run", "radar_sim", "radar_simulator", "--ros-args", *settings],
+                logs / "radar_simulator.log",
+            )
+        )
+        source.wait(timeout=600.0)
