@@ -18,7 +18,7 @@ PACKAGES = ["radar_common", "radar_sim", "primary_proc", "secondary_proc", "rada
 def test_the_workspace_holds_the_packages_by_a_relative_link():
     link = ROOT / "ros2_ws" / "src"
     assert link.is_symlink()
-    assert os.readlink(link) == "../src"
+    assert link.readlink() == Path("../src")
 
 
 @pytest.fixture(scope="module")
