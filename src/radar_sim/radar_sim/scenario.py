@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenarios: YAML files that name a radar, its targets and its traffic."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+import yaml
+
+from radar_common.parameters import ParameterError, Parameters
+from radar_sim.radar import Radar
+from radar_sim.targets import LegSection, Target, Targets, TargetSection
+from radar_sim.traffic import TrafficSection, draw_traffic
+
+SectionT = TypeVar("SectionT", bound=Parameters)
+
+_KEYS = {"title", "radar", "targets", "traffic"}
+
+
+class ScenarioError(ValueError):
+    """A scenario cannot be used; the text names the file, the key and the reason."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scenario:
+    """What is simulated.
+
+    Attributes:
+        title: one line for people.
+        radar: the radar.
+        targets: those given one by one; they have the first ids.
+        traffic: groups drawn from the seed.
+    """
+
+    radar: Radar
+    targets: tuple[Target, ...] = ()
+    traffic: tuple[TrafficSection, ...] = ()
+    title: str = ""
+
+    def draw(self, rng: np.random.Generator) -> Targets:
+        """Put together all targets, the traffic drawn at random.
+
+        Args:
+            rng: source of randomness.
+
+        Returns:
+            Targets in order of their ids.
+        """
+        drawn = list(self.targets)
+        for group in self.traffic:
+            drawn += draw_traffic(group, self.radar, rng)
+        return Targets(drawn)
+
+
+def scenario_names() -> list[str]:
+    """List the scenarios that come with the package.
+
+    Returns:
+        Names, sorted.
+    """
+    folder = resources.files("radar_sim") / "scenarios"
+    return sorted(
+        entry.name.removesuffix(".yaml")
+        for entry in folder.iterdir()
+        if entry.name.endswith(".yaml")
+    )
+
+
+def load_scenario(name: str | Path) -> Scenario:
+    """Read a scenario.
+
+    Args:
+        name: one of `scenario_names()`, or a path to a YAML file.
+
+    Returns:
+        The scenario, every value checked.
+
+    Raises:
+        ScenarioError: there is no such scenario, or it is impossible.
+    """
+    if str(name) in scenario_names():
+        text = (resources.files("radar_sim") / "scenarios" / f"{name}.yaml").read_text("utf-8")
+    else:
+        try:
+            text = Path(name).read_text("utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise ScenarioError(
+                f"scenario {name}: neither one of {', '.join(scenario_names())} nor a readable file ({error})"
+            ) from error
+    return parse_scenario(text, source=str(name))
+
+
+def parse_scenario(text: str, *, source: str = "text") -> Scenario:
+    """Read a scenario from the text of its file.
+
+    Args:
+        text: YAML.
+        source: name of the file for error messages.
+
+    Returns:
+        The scenario, every value checked.
+
+    Raises:
+        ScenarioError: it is not YAML, a key is unknown, or a value is impossible.
+    """
+    try:
+        content = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise ScenarioError(f"scenario {source}: {error}") from error
+    if not isinstance(content, dict):
+        raise ScenarioError(f"scenario {source}: the top level must be keys and values")
+    try:
+        unknown = sorted(str(key) for key in content if key not in _KEYS)
+        if unknown:
+            raise ParameterError(f"unknown key {', '.join(unknown)}")
+        targets = [_target(entry, where) for where, entry in _entries(content, "targets", "")]
+        traffic = [
+            _section(TrafficSection, entry, where)
+            for where, entry in _entries(content, "traffic", "")
+        ]
+        return Scenario(
+            radar=_section(Radar, content.get("radar"), "radar"),
+            targets=tuple(targets),
+            traffic=tuple(traffic),
+            title=str(content.get("title", "")),
+        )
+    except ParameterError as error:
+        raise ScenarioError(f"scenario {source}: {error}") from error
+
+
+def _target(entry: Any, where: str) -> Target:
+    legs = []
+    if isinstance(entry, dict):
+        entry = dict(entry)
+        legs = [_section(LegSection, leg, at) for at, leg in _entries(entry, "legs", f"{where}.")]
+        entry.pop("legs", None)
+    section = _section(TargetSection, entry, where)
+    try:
+        return section.target(legs)
+    except ParameterError as error:
+        raise ParameterError(f"{where}: {error}") from error
+
+
+def _entries(content: Mapping[str, Any], key: str, prefix: str) -> list[tuple[str, Any]]:
+    entries = content.get(key) or []
+    if not isinstance(entries, list):
+        raise ParameterError(f"{prefix}{key}: must be a list")
+    return [(f"{prefix}{key}[{number}]", entry) for number, entry in enumerate(entries)]
+
+
+def _section(cls: type[SectionT], entry: Any, where: str) -> SectionT:
+    if entry is None:
+        entry = {}
+    if not isinstance(entry, dict):
+        raise ParameterError(f"{where}: must be keys and values")
+    try:
+        return cls().changed({str(key): value for key, value in entry.items()})
+    except ParameterError as error:
+        raise ParameterError(f"{where}: {error}") from error
