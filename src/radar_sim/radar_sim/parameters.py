@@ -46,6 +46,13 @@ class SimulatorParameters(Parameters):
         high=1000,
         read_only=True,
     )
+    wait_for_truth_subscribers: int = parameter(
+        0,
+        "subscriptions to truth, such as a recorder, to wait for before the first sector",
+        low=0,
+        high=1000,
+        read_only=True,
+    )
     start_time: int = parameter(
         1_700_000_000,
         "stamp of the first pulse in a bag written with --bag, since the epoch; a live node takes its clock",
