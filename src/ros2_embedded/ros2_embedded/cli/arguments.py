@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers on the command line, checked where they are parsed."""
+"""Numbers and patterns on the command line, checked where they are parsed."""
 
 from __future__ import annotations
 
+import re
 from argparse import ArgumentTypeError
 
 
@@ -64,6 +65,21 @@ def non_negative_float(text: str) -> float:
     if not 0.0 <= value < float("inf"):
         raise ArgumentTypeError("value must not be negative")
     return value
+
+
+def pattern(text: str) -> re.Pattern[str]:
+    """Parse a regular expression.
+
+    Args:
+        text: The argument.
+
+    Raises:
+        ArgumentTypeError: It is not one.
+    """
+    try:
+        return re.compile(text)
+    except re.error as error:
+        raise ArgumentTypeError(f"'{text}' is no regular expression: {error}") from None
 
 
 def _integer(text: str) -> int:

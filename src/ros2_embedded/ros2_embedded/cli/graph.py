@@ -11,17 +11,9 @@ from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
 
 from ros2_embedded.cli.interfaces import message_class
+from ros2_embedded.cli.names import is_hidden
 
 _POLL_SECONDS = 0.1
-
-
-def is_hidden(name: str) -> bool:
-    """Tell whether a topic, service or node is hidden: a part of its name starts with `_`.
-
-    Args:
-        name: The full name.
-    """
-    return any(part.startswith("_") for part in name.split("/"))
 
 
 def topics(node: Node, *, include_hidden: bool = False) -> list[tuple[str, list[str]]]:
@@ -32,6 +24,17 @@ def topics(node: Node, *, include_hidden: bool = False) -> list[tuple[str, list[
         include_hidden: Return hidden topics as well.
     """
     found = node.get_topic_names_and_types()
+    return sorted((name, types) for name, types in found if include_hidden or not is_hidden(name))
+
+
+def services(node: Node, *, include_hidden: bool = False) -> list[tuple[str, list[str]]]:
+    """Return names and types of the services, sorted by name.
+
+    Args:
+        node: The node that asks.
+        include_hidden: Return hidden services as well.
+    """
+    found = node.get_service_names_and_types()
     return sorted((name, types) for name, types in found if include_hidden or not is_hidden(name))
 
 
@@ -47,19 +50,6 @@ def node_names(node: Node, *, include_hidden: bool = False) -> list[str]:
         for name, namespace in node.get_node_names_and_namespaces()
         if include_hidden or not name.startswith("_")
     )
-
-
-def split_node_name(full_name: str) -> tuple[str, str]:
-    """Split a node's name into base name and namespace.
-
-    Args:
-        full_name: The name, with or without the leading slash.
-
-    Returns:
-        Base name, then namespace.
-    """
-    namespace, _, name = full_name.rpartition("/")
-    return name, "/" + namespace.strip("/")
 
 
 def full_topic_name(node: Node, topic: str) -> str:

@@ -7,6 +7,10 @@ import importlib
 from typing import Any
 
 
+class UnknownTypeError(RuntimeError):
+    """No message or service has that name here."""
+
+
 def message_class(name: str) -> type[Any]:
     """Return the class of a message.
 
@@ -14,9 +18,21 @@ def message_class(name: str) -> type[Any]:
         name: `package/msg/Name`, or `package/Name`.
 
     Raises:
-        RuntimeError: There is no such message.
+        UnknownTypeError: There is no such message.
     """
     return _interface_class(name, "msg", f"The message type '{name}' is invalid")
+
+
+def requested_message_class(name: str) -> type[Any]:
+    """Return the class of a message that the user has named.
+
+    Args:
+        name: `package/msg/Name`, or `package/Name`.
+
+    Raises:
+        UnknownTypeError: There is no such message.
+    """
+    return _interface_class(name, "msg", "The passed message type is invalid")
 
 
 def service_class(name: str) -> type[Any]:
@@ -26,17 +42,17 @@ def service_class(name: str) -> type[Any]:
         name: `package/srv/Name`, or `package/Name`.
 
     Raises:
-        RuntimeError: There is no such service.
+        UnknownTypeError: There is no such service.
     """
-    return _interface_class(name, "srv", f"The service type '{name}' is invalid")
+    return _interface_class(name, "srv", "The passed service type is invalid")
 
 
 def _interface_class(name: str, kind: str, error: str) -> type[Any]:
     package, *middle, last = name.split("/")
     if middle not in ([], [kind]) or not package or not last:
-        raise RuntimeError(error)
+        raise UnknownTypeError(error)
     try:
         found: type[Any] = getattr(importlib.import_module(f"{package}.{kind}"), last)
     except (ImportError, AttributeError, ValueError):
-        raise RuntimeError(error) from None
+        raise UnknownTypeError(error) from None
     return found

@@ -71,7 +71,9 @@ def _stamp_setter(message: Any, name: str, value: Any) -> Callable[[Any], None] 
     return None
 
 
-def _elements(message: Any, name: str, value: Any, stamps: list[Callable[[Any], None]]) -> list[Any]:
+def _elements(
+    message: Any, name: str, value: Any, stamps: list[Callable[[Any], None]]
+) -> list[Any]:
     """Return the elements of a sequence; those that are messages are filled one by one."""
     element = _ELEMENT.fullmatch(message.get_fields_and_field_types()[name])
     if element is None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import array
 import re
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -56,7 +57,7 @@ def message_to_csv(message: Any, options: TextOptions) -> str:
         message: The message.
         options: How much of it is shown.
     """
-    return ",".join(
+    return _joined(
         _csv(getattr(message, name), field_type, options)
         for name, field_type in message.get_fields_and_field_types().items()
     )
@@ -103,10 +104,18 @@ def _csv(value: Any, field_type: str | None, options: TextOptions) -> str:
         if options.no_arr and field_type is not None:
             return _abbreviated(field_type, len(value))
         shown = [_csv(element, None, options) for element in value[:limit]]
-        return ",".join(shown if len(shown) == len(value) else [*shown, "..."])
+        return _joined(shown if len(shown) == len(value) else [*shown, "..."])
     if isinstance(value, bool | float | int | np.generic):
         return str(value)
     return message_to_csv(value, options)
+
+
+def _joined(values: Iterable[str]) -> str:
+    """Join with commas; empty values at the start leave no trace, as in the full tool."""
+    text = ""
+    for value in values:
+        text = f"{text},{value}" if text else value
+    return text
 
 
 def _cut(text: str, limit: int | None) -> str:

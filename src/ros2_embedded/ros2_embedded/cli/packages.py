@@ -38,7 +38,9 @@ class Executable:
 
 def prefixes() -> list[Path]:
     """Return the ament prefixes, the nearest overlay first; this Python's own prefix is last."""
-    listed = [Path(entry) for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
+    listed = [
+        Path(entry) for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry
+    ]
     return [*listed, Path(sys.prefix)]
 
 
@@ -93,9 +95,9 @@ def _files(folder: Path) -> Iterator[Executable]:
     for directory, folders, names in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         for name in sorted(names):
-            path = os.path.join(directory, name)
+            path = Path(directory, name)
             if os.access(path, os.X_OK):
-                yield Executable(name, (path,))
+                yield Executable(name, (str(path),))
 
 
 def _console_scripts(package: str) -> Iterator[Executable]:

@@ -7,7 +7,8 @@ import argparse
 import sys
 
 from ros2_embedded.cli.direct_node import add_node_arguments, direct_node
-from ros2_embedded.cli.graph import is_hidden, node_names, split_node_name
+from ros2_embedded.cli.graph import node_names
+from ros2_embedded.cli.names import is_hidden, split_node_name
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -53,9 +54,12 @@ def main(args: argparse.Namespace) -> str | None:
             ("Service Clients", node.get_client_names_and_types_by_node),
         ):
             print(f"  {title}:")
-            for entity, types in ask(name, namespace):
-                if args.include_hidden or not is_hidden(entity):
-                    print(f"    {entity}: {', '.join(types)}")
+            lines = [
+                f"    {entity}: {', '.join(types)}"
+                for entity, types in ask(name, namespace)
+                if args.include_hidden or not is_hidden(entity)
+            ]
+            print("\n".join(lines))
         # Headings that scripts look for; the embedded runtime has no actions.
         print("  Action Servers:\n\n  Action Clients:\n")
     return None

@@ -15,9 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser: The parser of the verb.
     """
     parser.add_argument("package_name", help="The package name")
-    parser.add_argument(
-        "--share", action="store_true", help="Show share directory for the package"
-    )
+    parser.add_argument("--share", action="store_true", help="Show share directory for the package")
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -54,9 +54,7 @@ def main(args: argparse.Namespace) -> None:
             if text is not None:
                 print(text)
 
-        node.create_subscription(
-            kind, args.topic, on_message, qos_profile_sensor_data, raw=True
-        )
+        node.create_subscription(kind, args.topic, on_message, qos_profile_sensor_data, raw=True)
         print(f"Subscribed to [{args.topic}]")
         node.create_timer(1.0, report)
         rclpy.spin(node)

@@ -15,7 +15,7 @@ from rclpy.task import Future
 from ros2_embedded.cli.arguments import non_negative_int, positive_float
 from ros2_embedded.cli.direct_node import add_node_arguments, direct_node
 from ros2_embedded.cli.graph import full_topic_name, topic_class
-from ros2_embedded.cli.interfaces import message_class
+from ros2_embedded.cli.interfaces import requested_message_class
 from ros2_embedded.cli.message_text import TextOptions, message_to_csv, message_to_yaml
 from ros2_embedded.cli.qos_options import (
     adapt_to_offers,
@@ -74,15 +74,16 @@ def main(args: argparse.Namespace) -> None:
         if not has_overrides(args):
             for warning in adapt_to_offers(profile, publishers, args.topic_name):
                 print(warning)
-        if args.message_type is None:
-            kind = topic_class(node, args.topic_name)
-        else:
-            kind = message_class(args.message_type)
+        named = args.message_type is not None
+        kind = (
+            requested_message_class(args.message_type)
+            if named
+            else topic_class(node, args.topic_name)
+        )
         if kind is None:
             raise RuntimeError("Could not determine the type for the passed topic")
         finished = Future()
 
-        # The annotations let rclpy see that the second argument, the info, is wanted.
         def on_message(message: Any, info: Mapping[str, Any]) -> None:
             if not finished.done() and printer.show(message, info) and args.once:
                 finished.set_result(None)

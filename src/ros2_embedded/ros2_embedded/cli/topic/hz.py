@@ -25,9 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser: The parser of the verb.
     """
     add_node_arguments(parser)
-    parser.add_argument(
-        "topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')"
-    )
+    parser.add_argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
     parser.add_argument(
         "-w",
         "--window",

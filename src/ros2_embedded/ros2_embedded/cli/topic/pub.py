@@ -15,7 +15,7 @@ from rclpy.publisher import Publisher
 
 from ros2_embedded.cli.arguments import non_negative_int, positive_float
 from ros2_embedded.cli.direct_node import add_node_arguments, direct_node
-from ros2_embedded.cli.interfaces import message_class
+from ros2_embedded.cli.interfaces import requested_message_class
 from ros2_embedded.cli.message_fill import fill_message
 from ros2_embedded.cli.qos_options import add_qos_arguments, profile_of
 
@@ -73,7 +73,7 @@ def main(args: argparse.Namespace) -> str | None:
             "--max-wait-time-secs option is only effective"
             " with --wait-matching-subscriptions, --once or --times"
         )
-    kind = message_class(args.message_type)
+    kind = requested_message_class(args.message_type)
     try:
         values = yaml.safe_load(sys.stdin.read() if args.stdin else args.values)
     except yaml.YAMLError as error:
