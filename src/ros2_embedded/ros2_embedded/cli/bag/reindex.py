@@ -49,6 +49,8 @@ def main(args: argparse.Namespace) -> None:
         with reading(bag):
             count = _rewrite(files[0], workshop / bag.resolve().name)
         (new_file,) = (workshop / bag.resolve().name).glob(f"*{files[0].suffix}")
+        # A journal belongs to the old database and would spoil a new one of that name.
+        files[0].with_name(f"{files[0].name}-journal").unlink(missing_ok=True)
         new_file.replace(bag / new_file.name)
         (new_file.parent / "metadata.yaml").replace(bag / "metadata.yaml")
         if files[0].name != new_file.name:
