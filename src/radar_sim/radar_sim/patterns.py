@@ -60,8 +60,8 @@ def _sinc2(alpha: FloatArray) -> FloatArray:
 # At alpha = 3 a Gaussian burst is 78 dB below its peak in power, under the noise of any target within max_snr_db.
 PATTERNS = {
     "gaussian": Pattern(_gaussian, math.sqrt(math.log(2.0)), 3.0),
-    "sinc": Pattern(_sinc, 0.6033545644, 1.0),
-    "sinc2": Pattern(_sinc2, 0.4429464693, 1.0),
+    "sinc": Pattern(_sinc, 0.6033545644016142, 1.0),
+    "sinc2": Pattern(_sinc2, 0.4429464706894524, 1.0),
     "rectangular": Pattern(np.ones_like, 1.0, 1.0),
 }
 """Kuzmin 1967, § 1.4.3 and (3.28), and the alternatives of § 3.2, by the name that a scenario uses."""

@@ -10,6 +10,7 @@ from typing import NamedTuple, Self
 import numpy as np
 import numpy.typing as npt
 
+from radar_common.parameters import ParameterError
 from radar_common.tables import NANOSECONDS, RADAR_FRAME, SITE_FRAME, TRUTH, Table, sweep_dtype
 from radar_sim.bursts import Echoes, find_crossings, make_echoes, pulses_to_either_side
 from radar_sim.parameters import SimulatorParameters
@@ -58,7 +59,13 @@ class Simulator:
             scans: turns after which iteration ends, 0 for never.
             sample: type of a video sample: float32, uint8 or uint16.
             start: stamp of the first pulse, nanoseconds.
+
+        Raises:
+            ParameterError: there are more sectors than pulses.
         """
+        pulses = scenario.radar.pulses_per_scan
+        if sectors > pulses:
+            raise ParameterError(f"sectors {sectors} exceed the {pulses:g} pulses of a turn")
         traffic, noise, phase, fluctuation = map(
             np.random.default_rng, np.random.SeedSequence(seed).spawn(4)
         )
@@ -88,6 +95,7 @@ class Simulator:
 
         Raises:
             ScenarioError: the scenario cannot be used.
+            ParameterError: there are more sectors than pulses.
         """
         return cls(
             load_scenario(parameters.scenario),
