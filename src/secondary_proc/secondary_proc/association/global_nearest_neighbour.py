@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The one-to-one assignment with the greatest sum of gains."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import min_weight_full_bipartite_matching
+
+from secondary_proc.association.interface import GateGraph
+
+IndexArray = npt.NDArray[np.intp]
+
+
+def global_nearest_neighbour(graph: GateGraph) -> IndexArray:
+    """Assign plots to tracks so that the sum of gains is greatest.
+
+    Edges whose track and plot have no other edge are taken as they are. The rest goes to one sparse assignment, in
+    which connected components of the graph do not meet; a private dummy plot for each track lets it stay alone.
+    Source: Jonker and Volgenant 1987, as scipy implements it for sparse graphs.
+
+    Args:
+        graph: edges with positive gains.
+
+    Returns:
+        Indices of the chosen edges, ascending.
+    """
+    if not len(graph.track):
+        return np.zeros(0, np.intp)
+    alone = (np.bincount(graph.track)[graph.track] == 1) & (
+        np.bincount(graph.plot)[graph.plot] == 1
+    )
+    if alone.all():
+        return np.arange(len(graph.track))
+    contested = np.flatnonzero(~alone)
+    chosen = contested[
+        _assign(graph.track[contested], graph.plot[contested], graph.gain[contested])
+    ]
+    return np.sort(np.concatenate([np.flatnonzero(alone), chosen]))
+
+
+def _assign(track: IndexArray, plot: IndexArray, gain: npt.NDArray[np.float64]) -> IndexArray:
+    tracks, row = np.unique(track, return_inverse=True)
+    plots, column = np.unique(plot, return_inverse=True)
+    count = len(tracks)
+    # The solver takes stored weights only, and none of them may be zero.
+    alone = float(gain.max()) + 1.0
+    weights = csr_array(
+        (
+            np.concatenate([alone - gain, np.full(count, alone)]),
+            (
+                np.concatenate([row, np.arange(count)]),
+                np.concatenate([column, len(plots) + np.arange(count)]),
+            ),
+        ),
+        shape=(count, len(plots) + count),
+    )
+    rows, columns = min_weight_full_bipartite_matching(weights)
+    real = columns < len(plots)
+    key = row * len(plots) + column
+    order = np.argsort(key)
+    wanted = rows[real] * len(plots) + columns[real]
+    return order[np.searchsorted(key[order], wanted)]

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Gates from the predicted error, as a sparse graph of tracks and plots.
+
+Source: Kuzmin 1967, (4.137)-(4.144), with the ellipse instead of the rectangle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from secondary_proc.motion import inverse_2x2, predict_position_covariance
+from secondary_proc.neighbours import neighbour_pairs
+from secondary_proc.plots import Plots
+from secondary_proc.track_store import TrackStore
+
+FloatArray = npt.NDArray[np.float64]
+IndexArray = npt.NDArray[np.intp]
+
+_MOST_NEIGHBOURS = 4_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Gated:
+    """Plots in gates, one row a pair.
+
+    Attributes:
+        track: index into the store, shape (n,).
+        plot: index into the plots, shape (n,).
+        distance_squared: normalised by the covariance of the predicted difference, shape (n,).
+        determinant: of that covariance, m^4, shape (n,).
+        skipped: tracks that were not looked at because there were too many neighbours.
+    """
+
+    track: IndexArray
+    plot: IndexArray
+    distance_squared: FloatArray
+    determinant: FloatArray
+    skipped: int
+
+
+def gate(
+    store: TrackStore,
+    tracks: IndexArray,
+    plots: Plots,
+    *,
+    sigmas: float,
+    noise_density: float,
+    shortest: float,
+) -> Gated:
+    """Find the plots in each track's gate, every plot at its own time.
+
+    Args:
+        store: all tracks.
+        tracks: indices of those that the beam may find, shape (n,).
+        plots: of one slice of time, not empty, in order of time.
+        sigmas: half axis of the gate in standard deviations.
+        noise_density: power spectral density of the acceleration that the gate stays open for, m^2/s^3.
+        shortest: seconds that must lie between two plots of a track.
+
+    Returns:
+        Pairs of track and plot.
+    """
+    begin, end = plots.time[0], plots.time[-1]
+    state, covariance = store["state"][tracks], store["covariance"][tracks]
+    seconds = 0.5 * (begin + end) - store["time"][tracks]
+    centre = state[:, :2] + state[:, 2:] * seconds[:, None]
+    density = np.full(len(tracks), noise_density)
+    spread = predict_position_covariance(covariance, seconds, density).trace(axis1=1, axis2=2)
+    spread += plots.covariance.trace(axis1=1, axis2=2).max()
+    travel = np.hypot(state[:, 2], state[:, 3]) * 0.5 * (end - begin)
+    # The predicted error grows over half a slice; a tenth covers it, as slices are short against the period.
+    radius = float((1.1 * sigmas * np.sqrt(spread) + travel).max(initial=0.0))
+    row, plot, skipped = neighbour_pairs(centre, plots.position, radius, _MOST_NEIGHBOURS)
+    seconds = plots.time[plot] - store["time"][tracks[row]]
+    apart = seconds >= shortest
+    row, plot, seconds = row[apart], plot[apart], seconds[apart]
+    difference = plots.position[plot] - state[row, :2] - state[row, 2:] * seconds[:, None]
+    expected = predict_position_covariance(covariance[row], seconds, density[row])
+    expected += plots.covariance[plot]
+    inverse, determinant = inverse_2x2(expected)
+    distance_squared = np.einsum("ni,nij,nj->n", difference, inverse, difference)
+    inside = distance_squared <= sigmas**2
+    return Gated(
+        tracks[row[inside]], plot[inside], distance_squared[inside], determinant[inside], skipped
+    )

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a user may set about tracking."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from radar_common.parameters import ParameterError, Parameters, parameter
+
+from secondary_proc.association import ASSOCIATIONS
+from secondary_proc.initiation import INITIATIONS
+from secondary_proc.smoothing import SMOOTHERS
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrackerParameters(Parameters):
+    """Parameters of the tracker."""
+
+    scan_period: float = parameter(
+        0.0,
+        "hint for the antenna's period of rotation, 0 for unknown; the period itself is estimated from the plots",
+        unit="s",
+        low=0.0,
+        high=60.0,
+    )
+    initiation: str = parameter(
+        "likelihood_ratio",
+        "rule that confirms tracks: a likelihood ratio set by false_tracks_per_hour, or l plots in m scans",
+        choices=tuple(INITIATIONS),
+    )
+    confirm_hits: int = parameter(
+        3, "plots that a track needs before it can be confirmed (l of the l/m rule)", low=2, high=8
+    )
+    confirm_window: int = parameter(
+        4, "scans in which they must fall (m of the l/m rule)", low=2, high=8
+    )
+    false_tracks_per_hour: float = parameter(
+        0.1,
+        "confirmed false tracks to be expected; smaller means surer and later confirmation",
+        unit="1/h",
+        low=1e-9,
+        high=1e6,
+    )
+    detection_probability: float = parameter(
+        0.85,
+        "probability of a plot per scan and target, as the score assumes it",
+        low=0.05,
+        high=0.99,
+    )
+    minimum_speed: float = parameter(
+        0.0,
+        "slower pairs of plots open no track; the inner radius of the annulus is this times the time between them",
+        unit="m/s",
+        low=0.0,
+        high=2000.0,
+    )
+    maximum_speed: float = parameter(
+        350.0,
+        "faster pairs of plots open no track; the outer radius of the annulus is this times the time between them",
+        unit="m/s",
+        low=0.1,
+        high=10000.0,
+    )
+    tentative_misses: int = parameter(
+        2, "scans in a row without a plot that end a tentative track", low=1, high=20
+    )
+    confirmed_misses: int = parameter(
+        5, "scans in a row without a plot that end a confirmed track", low=1, high=50
+    )
+    smoother: str = parameter("kalman", "filter of position and velocity", choices=tuple(SMOOTHERS))
+    acceleration: float = parameter(
+        0.5,
+        "standard deviation of the accelerations of a target between manoeuvres",
+        unit="m/s^2",
+        low=0.0,
+        high=100.0,
+    )
+    manoeuvre_acceleration: float = parameter(
+        4.0,
+        "standard deviation of the accelerations in a manoeuvre; gates stay open for it",
+        unit="m/s^2",
+        low=0.0,
+        high=1000.0,
+    )
+    association: str = parameter(
+        "global_nearest_neighbour",
+        "how plots are given to tracks that compete for them",
+        choices=tuple(ASSOCIATIONS),
+    )
+    gate_sigmas: float = parameter(
+        3.5,
+        "half axis of the gate in standard deviations of the predicted difference",
+        unit="sigma",
+        low=1.0,
+        high=10.0,
+    )
+    default_range_std: float = parameter(
+        50.0, "range error of plots that do not tell theirs", unit="m", low=0.01, high=10000.0
+    )
+    default_azimuth_std: float = parameter(
+        0.003, "azimuth error of plots that do not tell theirs", unit="rad", low=1e-6, high=0.5
+    )
+    minimum_range_std: float = parameter(
+        5.0, "smallest range error believed of a plot", unit="m", low=0.01, high=10000.0
+    )
+    minimum_azimuth_std: float = parameter(
+        0.0002, "smallest azimuth error believed of a plot", unit="rad", low=1e-6, high=0.5
+    )
+    maximum_range: float = parameter(
+        500e3, "plots farther away are dropped", unit="m", low=100.0, high=5e6
+    )
+    maximum_plots: int = parameter(
+        20000,
+        "plots a scan that are processed; the weakest of more are dropped, which bounds time and memory",
+        low=100,
+        high=1000000,
+    )
+    maximum_tracks: int = parameter(
+        20000, "tracks kept at most, tentative ones included", low=10, high=1000000
+    )
+    radar_x: float = parameter(0.0, "radar's place in the map, east", unit="m", low=-1e7, high=1e7)
+    radar_y: float = parameter(0.0, "radar's place in the map, north", unit="m", low=-1e7, high=1e7)
+    radar_z: float = parameter(0.0, "radar's place in the map, up", unit="m", low=-1e5, high=1e5)
+
+    def check(self) -> None:
+        """Refuse rules that nothing can satisfy."""
+        if self.confirm_hits > self.confirm_window:
+            raise ParameterError(
+                f"confirm_hits {self.confirm_hits} do not fit into a confirm_window of "
+                f"{self.confirm_window} scans"
+            )
+        if self.minimum_speed >= self.maximum_speed:
+            raise ParameterError(
+                f"minimum_speed {self.minimum_speed} must be below maximum_speed {self.maximum_speed}"
+            )
+        if self.acceleration > self.manoeuvre_acceleration:
+            raise ParameterError(
+                f"acceleration {self.acceleration} must not exceed manoeuvre_acceleration "
+                f"{self.manoeuvre_acceleration}"
+            )

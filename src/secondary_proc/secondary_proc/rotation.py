@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The antenna's rotation, estimated from nothing but the times and azimuths of plots.
+
+Every plot, true or false, satisfies azimuth = phase + rate * time (mod 2 pi), whatever the target does. The rate is
+found as the maximum of the periodogram of exp(j azimuth) over the recent plots and then followed by regression.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from radar_common.frames import TWO_PI, wrap_pi
+
+FloatArray = npt.NDArray[np.float64]
+
+SHORTEST_PERIOD = 0.3
+LONGEST_PERIOD = 60.0
+_WINDOW = 128
+_FEWEST = 6
+_TOLERANCE = 0.2  # rad
+_SMALLEST_TURN = 1.0  # rad
+_FINEST_GRID = 4096
+_LONGEST_SILENCE = 20.0  # periods
+_VERDICT_PLOTS = 12
+_UNKNOWN = 4.0  # s
+
+
+class Rotation:
+    """Estimates period and sense of the rotation."""
+
+    def __init__(self, hint: float = 0.0) -> None:
+        """Start without plots.
+
+        Args:
+            hint: period in seconds, 0 if nobody knows.
+        """
+        self._hint = hint
+        self._period = hint
+        self._times: FloatArray = np.zeros(0)
+        self._azimuths: FloatArray = np.zeros(0)
+        self._good = np.ones(0, bool)
+        self._rate = 0.0
+        self._phase = 0.0
+        self._origin = 0.0
+        self._news = 0
+        self.locked = False
+        """Whether the plots at present fit the estimate."""
+
+    @property
+    def known(self) -> bool:
+        """Whether there is a period, by hint or by estimate."""
+        return self._period > 0.0
+
+    @property
+    def period(self) -> float:
+        """Seconds a turn; a common value as long as nothing is known."""
+        return self._period if self.known else _UNKNOWN
+
+    @property
+    def sense(self) -> float:
+        """+1 where azimuths increase with time, -1 where they decrease, 0 while unknown."""
+        return float(np.sign(self._rate))
+
+    def observe(self, times: FloatArray, azimuths: FloatArray) -> None:
+        """Take plots into account.
+
+        Args:
+            times: seconds, ascending, shape (n,).
+            azimuths: radians, shape (n,).
+        """
+        if not len(times):
+            return
+        if len(self._times) and times[0] - self._times[-1] > _LONGEST_SILENCE * self.period:
+            self._restart(0)
+        if self.locked:
+            self._check(times[-_WINDOW:], azimuths[-_WINDOW:])
+        self._times = np.concatenate([self._times, times])[-_WINDOW:]
+        self._azimuths = np.concatenate([self._azimuths, azimuths])[-_WINDOW:]
+        self._news += len(times)
+        if self.locked and self._news >= _VERDICT_PLOTS:
+            self._news = 0
+            self._refine()
+        elif not self.locked and self._news >= _FEWEST:
+            self._news = 0
+            self._acquire()
+
+    def _check(self, times: FloatArray, azimuths: FloatArray) -> None:
+        good = np.abs(self._residuals(times, azimuths)) < _TOLERANCE
+        self._good = np.concatenate([self._good, good])[-_VERDICT_PLOTS:]
+        if len(self._good) == _VERDICT_PLOTS and np.count_nonzero(self._good) < _VERDICT_PLOTS / 2:
+            self._restart(_VERDICT_PLOTS)
+
+    def _restart(self, keep: int) -> None:
+        self.locked = False
+        self._good = self._good[:0]
+        begin = max(0, len(self._times) - keep)
+        self._times, self._azimuths = self._times[begin:], self._azimuths[begin:]
+
+    def _residuals(self, times: FloatArray, azimuths: FloatArray) -> FloatArray:
+        return wrap_pi(azimuths - self._phase - self._rate * (times - self._origin))
+
+    def _refine(self) -> None:
+        residuals = self._residuals(self._times, self._azimuths)
+        good = np.abs(residuals) < _TOLERANCE
+        if np.count_nonzero(good) < _FEWEST:
+            return
+        times, residuals = self._times[good], residuals[good]
+        centre = times.mean()
+        spread = times - centre
+        correction = float(spread @ residuals / max(float(spread @ spread), 1e-12))
+        self._phase += self._rate * (centre - self._origin) + float(residuals.mean())
+        self._rate += correction
+        self._origin = centre
+        self._period = float(np.clip(TWO_PI / abs(self._rate), SHORTEST_PERIOD, LONGEST_PERIOD))
+
+    def _acquire(self) -> None:
+        newest = self._times[-1]
+        # Older plots would only narrow the peak beyond what the grid resolves.
+        reach = _FINEST_GRID / 4.0 * SHORTEST_PERIOD / TWO_PI
+        recent = self._times > newest - reach
+        times, azimuths = self._times[recent] - newest, self._azimuths[recent]
+        span = -float(times[0])
+        if len(times) < _FEWEST or span <= 0.0:
+            return
+        highest = TWO_PI / SHORTEST_PERIOD
+        count = int(np.clip(4.0 * highest * span / TWO_PI, 64, _FINEST_GRID))
+        speeds = np.linspace(TWO_PI / LONGEST_PERIOD, highest, count)
+        rates = np.concatenate([-speeds[::-1], speeds])
+        height = np.abs(np.exp(1j * (azimuths - rates[:, None] * times)).mean(axis=1))
+        best = float(height.max())
+        peak = np.r_[False, (height[1:-1] >= height[:-2]) & (height[1:-1] >= height[2:]), False]
+        candidates = rates[peak & (height > best - 0.1)]
+        if best < 0.8 or not len(candidates):
+            return
+        fits = [self._fit(rate, times, azimuths) for rate in self._by_preference(candidates)[:8]]
+        error, rate, phase = min(fits, key=lambda fit: round(fit[0], 2))
+        if error > _TOLERANCE / 2 or abs(rate) * span < _SMALLEST_TURN or rate == 0.0:
+            return
+        self._rate, self._phase, self._origin = rate, phase, newest
+        self._period = float(np.clip(TWO_PI / abs(rate), SHORTEST_PERIOD, LONGEST_PERIOD))
+        self.locked = True
+
+    def _by_preference(self, rates: FloatArray) -> FloatArray:
+        if self._hint > 0.0:
+            return rates[np.argsort(np.abs(np.log(np.abs(rates) * self._hint / TWO_PI)))]
+        return rates[np.argsort(np.abs(rates), kind="stable")]
+
+    @staticmethod
+    def _fit(rate: float, times: FloatArray, azimuths: FloatArray) -> tuple[float, float, float]:
+        phase = 0.0
+        for _ in range(4):
+            rotor = np.exp(1j * (azimuths - rate * times))
+            phase = float(np.angle(rotor.mean()))
+            residuals = wrap_pi(azimuths - rate * times - phase)
+            spread = times - times.mean()
+            rate += float(spread @ residuals / (spread @ spread))
+        residuals = wrap_pi(azimuths - rate * times - phase)
+        phase += float(residuals.mean())
+        return float(np.sqrt(np.mean((residuals - residuals.mean()) ** 2))), rate, phase

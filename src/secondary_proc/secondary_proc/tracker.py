@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The tracker: plots in, tracks out, sector by sector."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from radar_common.health import Health
+from radar_common.tables import PLOT, SITE_FRAME, TRACK, Table
+
+from secondary_proc import score
+from secondary_proc.association import ASSOCIATIONS, GateGraph
+from secondary_proc.clutter import FalsePlotDensity
+from secondary_proc.parameters import TrackerParameters
+from secondary_proc.plot_queue import PlotQueue
+from secondary_proc.plots import Plots
+from secondary_proc.rotation import Rotation
+from secondary_proc.starts import Annulus, Starts
+from secondary_proc.tracks import Tracks
+
+Rows = npt.NDArray[np.void]
+
+_LONGEST_SLICE = 0.25
+"""Turns of the antenna that are associated at once when a message brings more."""
+_COMPETITORS = 1 / 32
+_RESTART = 5.0
+_CHANGE = 0.003
+_CONFIRMED_FIRST = 1e4
+_LEAST_GAIN = 1e-3
+_SECONDS_PER_HOUR = 3600.0
+
+
+class Tracker:
+    """Turns plots into tracks."""
+
+    def __init__(self, parameters: TrackerParameters, health: Health | None = None) -> None:
+        """Start without tracks.
+
+        Args:
+            parameters: how to track.
+            health: where events are counted; None for a new one.
+        """
+        self.parameters = parameters
+        self.health = health if health is not None else Health()
+        self._begin()
+        self._tracks = Tracks(parameters, self._rotation, self.health)
+
+    def reconfigure(self, parameters: TrackerParameters) -> None:
+        """Go on with other parameters and the same tracks.
+
+        Args:
+            parameters: how to track from now on.
+        """
+        self.parameters = parameters
+        self._tracks.reconfigure(parameters, self._rotation)
+
+    def process(self, plots: Table) -> Table:
+        """Take in one message.
+
+        Args:
+            plots: dtype PLOT, possibly empty: its stamp alone tells that time has passed.
+
+        Returns:
+            Every track that got a plot, missed one, or ended; a track may stand in it more than once.
+
+        Raises:
+            TypeError: the table holds no plots.
+        """
+        if plots.rows.dtype != PLOT:
+            raise TypeError(f"the tracker takes plots, not {plots.rows.dtype}")
+        out: list[Rows] = []
+        stamp = self._queue.seconds(plots.stamp)
+        if stamp < self._queue.now - _RESTART * self._rotation.period:
+            self.health.drop("time went back: all tracks ended")
+            out.append(self._tracks.end_all())
+            self._begin()
+            self._tracks.reconfigure(self.parameters, self._rotation)
+        elapsed = max(stamp - self._queue.now, 0.0) if np.isfinite(self._queue.now) else 0.0
+        self._clutter.forget(elapsed / self._rotation.period)
+        accepted = self._queue.put(plots, self.parameters, self._rotation.period)
+        self.health.count("plots in", len(accepted))
+        self._rotation.observe(accepted["time"], accepted["azimuth"])
+        if abs(self._rotation.period / self._tracks.period - 1.0) > _CHANGE:
+            self._tracks.reconfigure(self.parameters, self._rotation)
+        self._drain(out)
+        return self._table(out, plots.stamp)
+
+    def flush(self) -> Table:
+        """Process what still waits for competitors, as no message will follow.
+
+        Returns:
+            The last tracks.
+        """
+        out: list[Rows] = []
+        self._drain(out, everything=True)
+        return self._table(out, self._queue.last_stamp)
+
+    def _begin(self) -> None:
+        self._queue = PlotQueue(self.health)
+        self._rotation = Rotation(self.parameters.scan_period)
+        self._clutter = FalsePlotDensity(self.parameters.maximum_range)
+        self._starts = Starts()
+
+    def _drain(self, out: list[Rows], *, everything: bool = False) -> None:
+        period = self._tracks.period
+        while (
+            taken := self._queue.take(
+                _LONGEST_SLICE * period, _COMPETITORS * period, everything=everything
+            )
+        ) is not None:
+            rows, ripe = taken
+            self._miss(min(rows["time"][0], self._queue.now), out)
+            self._work(Plots.from_queue(rows), ripe, out)
+        self._miss(self._queue.now, out)
+
+    def _miss(self, until: float, out: list[Rows]) -> None:
+        # A passage is only known to be over while the antenna's rotation is.
+        if self._rotation.known:
+            out.extend(self._tracks.miss(until))
+
+    def _work(self, plots: Plots, ripe: int, out: list[Rows]) -> None:
+        gated = self._tracks.gate(plots)
+        density = self._clutter.per_area(plots.range)
+        gain = score.hit(
+            self.parameters.detection_probability,
+            gated.distance_squared,
+            gated.determinant,
+            density[gated.plot],
+        )
+        confirmed = self._tracks.is_confirmed(gated.track)
+        weight = np.maximum(gain - score.miss(self.parameters.detection_probability), _LEAST_GAIN)
+        associate = ASSOCIATIONS[self.parameters.association]
+        edges = associate(GateGraph(gated.track, gated.plot, weight + _CONFIRMED_FIRST * confirmed))
+        # A track that only plots still to come can interest waits for their competitors.
+        urgent = np.isin(gated.track[edges], gated.track[gated.plot < ripe])
+        edges = edges[urgent]
+        plot = gated.plot[edges]
+        now = plot < ripe
+        unclaimed = np.ones(ripe, bool)
+        unclaimed[plot[now & confirmed[edges]]] = False
+        self._clutter.observe(plots.range[:ripe][unclaimed])
+        unclaimed[plot[now]] = False
+        if len(edges):
+            out.append(
+                self._tracks.update(gated.track[edges], plots[plot], gain[edges], self._threshold())
+            )
+            self._queue.take_also(plot[~now] - ripe)
+        fresh = plots[:ripe][unclaimed]
+        if len(fresh):
+            self._open(fresh, out)
+
+    def _open(self, plots: Plots, out: list[Rows]) -> None:
+        parameters, gap = self.parameters, self._tracks.longest_gap
+        period = self._tracks.period
+        self._starts.forget(plots.time[0] - (gap + 0.5) * period)
+        if self._rotation.known:
+            annulus = Annulus(
+                parameters.minimum_speed, parameters.maximum_speed, parameters.gate_sigmas, gap
+            )
+            pairs = self._starts.pair(plots, period, annulus)
+            self.health.drop("first plots beyond the limit of neighbours", pairs.skipped)
+            if len(pairs.start):
+                second = plots[pairs.plot]
+                density = self._clutter.per_area(second.range)
+                scores = score.second_plot(
+                    parameters.detection_probability, pairs.area, density, pairs.gap - 1
+                )
+                first = self._starts.plots[pairs.start]
+                out.append(self._tracks.open(first, second, pairs.gap, scores, self._threshold()))
+        lost = self._starts.add(plots, parameters.maximum_plots)
+        self.health.drop("first plots over the limit", lost)
+
+    def _threshold(self) -> float:
+        per_hour = self._clutter.per_scan * _SECONDS_PER_HOUR / self._tracks.period
+        return score.confirmation_threshold(per_hour, self.parameters.false_tracks_per_hour)
+
+    def _table(self, out: list[Rows], stamp: int) -> Table:
+        rows = np.concatenate(out) if out else np.zeros(0, TRACK)
+        rows["time_offset"] -= self._queue.seconds(stamp)
+        for name in ("x", "y", "z"):
+            rows[name] += getattr(self.parameters, f"radar_{name}")
+        self._watch()
+        return Table(stamp, rows, SITE_FRAME)
+
+    def _watch(self) -> None:
+        counts = self.health.counts
+        found = counts["plots of confirmed tracks"]
+        passed = found + counts["misses of confirmed tracks"]
+        if passed:
+            self.health.watch(
+                "plots per passage of a confirmed track",
+                self.parameters.detection_probability,
+                found / passed,
+            )
+        if self._rotation.known:
+            hint = self.parameters.scan_period or self._rotation.period
+            self.health.watch("scan period, s", hint, self._rotation.period)
