@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cell-averaging CFAR along range in the square-law domain."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from primary_proc.normalisation import FloatArray, Normaliser, square_finite
+
+_BLOCK_BYTES = 128 * 1024
+
+
+class CellAveraging(Normaliser):
+    """Power of a cell over the sum of the powers of N reference cells around it.
+
+    In exponentially distributed noise power p_N = (1 + T / N)^-N with T on the mean, that is (1 + t)^-N with t on the
+    sum (Finn and Johnson 1968; Gandhi and Kassam 1988, (7)). Towards the ends of the range the window is cut and N is
+    what is left of it, so that the probability holds in every cell.
+
+    The window sums come from doubling: sums of 2, 4, 8, … cells are sums of two shifted arrays. There is no running
+    sum, so nothing drifts and the result does not depend on how pulses are grouped into messages.
+    """
+
+    def __init__(self, cells: int, reference: int, guard: int) -> None:
+        """Bind to a number of cells.
+
+        Args:
+            cells: range cells of a pulse.
+            reference: reference cells on each side.
+            guard: cells on each side between the cell under test and its reference cells.
+
+        Raises:
+            ValueError: some cell would have no reference cell at all.
+        """
+        if cells < guard + 2:
+            raise ValueError(
+                f"{cells} range cells leave no reference cell beside a guard of {guard}"
+            )
+        self._cells, self._reference, self._guard = cells, reference, guard
+        self._pad = guard + reference
+        width = cells + 2 * self._pad
+        self._rows = max(1, _BLOCK_BYTES // (4 * width))
+        self._power = np.zeros((self._rows, width), np.float32)
+        self._sums = [np.zeros(self._rows * width, np.float32) for _ in range(3)]
+        self._count = _window_population(cells, reference, guard)
+        self.noise_scale = self._count.astype(float)
+
+    def ratios(self, video: npt.NDArray, out: npt.NDArray[np.float32]) -> int:
+        """Normalise some pulses; see `Normaliser.ratios`.
+
+        Args:
+            video: shape (pulses, cells).
+            out: float32, shape (pulses, cells).
+
+        Returns:
+            How many samples were not finite.
+        """
+        inner = self._power[:, self._pad : self._pad + self._cells]
+        shape = self._power.shape
+        bad = 0
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            # A block of pulses stays in the processor's cache from the first pass to the last.
+            for first in range(0, len(video), self._rows):
+                block = video[first : first + self._rows]
+                count = len(block)
+                bad += square_finite(block, inner[:count])
+                sums = self._window_sums(count).reshape(count, shape[1])[:, : self._cells]
+                np.divide(inner[:count], sums, out=out[first : first + count])
+        return bad
+
+    def threshold(self, probability: float) -> FloatArray:
+        """Threshold on the ratio to the sum; see `Normaliser.threshold`.
+
+        Args:
+            probability: p_N.
+
+        Returns:
+            Shape (cells,).
+        """
+        return np.expm1(-np.log(probability) / self._count)
+
+    def exceedance(self, ratio: npt.ArrayLike, cell: npt.NDArray[np.integer]) -> FloatArray:
+        """Inverse of `threshold`; see `Normaliser.exceedance`.
+
+        Args:
+            ratio: shape (n,).
+            cell: shape (n,).
+
+        Returns:
+            Shape (n,).
+        """
+        return np.exp(-self._count[cell] * np.log1p(ratio))
+
+    def _window_sums(self, pulses: int) -> npt.NDArray[np.float32]:
+        """Sums over both halves of the window, flat, aligned with the unpadded cell.
+
+        Pulses lie one behind another; the zeros between them keep their windows apart.
+        """
+        size = pulses * self._power.shape[1]
+        doubled = self._power.reshape(-1)[:size]
+        spare, other, total = (buffer[:size] for buffer in self._sums)
+        width, covered = 1, 0
+        half: npt.NDArray[np.float32] | None = None
+        while width <= self._reference:
+            if self._reference & width:
+                if half is None:
+                    half = doubled
+                else:
+                    np.add(half[: size - covered], doubled[covered:], out=total[: size - covered])
+                    half = total
+                covered += width
+            if 2 * width <= self._reference:
+                target = _not_in_use((spare, other, total), doubled, half)
+                np.add(doubled[:-width], doubled[width:], out=target[:-width])
+                doubled = target
+            width *= 2
+        assert half is not None
+        shift = self._reference + 2 * self._guard + 1
+        result = _not_in_use((spare, other, total), half)
+        np.add(half[:-shift], half[shift:], out=result[:-shift])
+        return result
+
+
+def _not_in_use(
+    buffers: tuple[npt.NDArray[np.float32], ...], *used: npt.NDArray[np.float32] | None
+) -> npt.NDArray[np.float32]:
+    return next(b for b in buffers if not any(b is u for u in used))
+
+
+def _window_population(cells: int, reference: int, guard: int) -> npt.NDArray[np.int64]:
+    """How many reference cells lie inside the range, for each cell."""
+    cell = np.arange(cells)
+    behind = np.clip(cell - guard, 0, reference)
+    ahead = np.clip(cells - 1 - cell - guard, 0, reference)
+    return behind + ahead

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Probability that a program detector detects a target's burst."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from primary_proc import cascade_chain
+from primary_proc.automaton import Program
+from primary_proc.automaton_chain import first_detection
+
+
+def detection_probability(
+    program: Program, noise: float, signal: npt.ArrayLike, model: str = "exact"
+) -> float:
+    """Probability of at least one detection on the positions of a target, noise before it.
+
+    Source: Kuzmin 1967, (3.86)-(3.91) for "kuzmin"; the automaton's own absorbing chain for "exact".
+
+    Args:
+        program: l/m-k.
+        noise: probability p_N of a one in noise.
+        signal: probability of a one on each position of the target, shape (positions,).
+        model: "exact" or "kuzmin".
+
+    Returns:
+        Probability.
+
+    Raises:
+        ValueError: the model is neither, or the book has no form for the program.
+    """
+    if model == "exact":
+        return float(first_detection(program, noise, signal))
+    if model != "kuzmin":
+        raise ValueError(f"model {model!r} is neither exact nor kuzmin")
+    states = cascade_chain.signal_states(program, noise, signal)
+    detection = states[:, cascade_chain.detection_index(program)]
+    lag = program.window + 1
+    detected = np.zeros(len(detection) + lag)
+    for position, now in enumerate(detection, start=lag):
+        detected[position] = detected[position - 1] + now * (1.0 - detected[position - lag])
+    return float(min(detected[-1], 1.0))

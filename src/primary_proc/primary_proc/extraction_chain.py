@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Normalise, quantise, detect, merge, estimate: the chain for one set of range cells."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import numpy.typing as npt
+
+from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS
+from primary_proc.design import design
+from primary_proc.parameters import ExtractorParameters
+from primary_proc.plot_formation import Grid, form_plots
+from primary_proc.power_meter import PowerMeter
+from primary_proc.pulse_log import PulseLog
+from primary_proc.rate_watch import RateWatch
+from primary_proc.ring_merge import Groups, RingMerger
+from primary_proc.sweep_stream import Pulses
+from radar_common.health import Health
+
+_BLOCK = 128
+_RETUNE = 0.02
+_MARGIN = 8
+
+
+class ExtractionChain:
+    """Extracts plots from consecutive pulses; keeps of the past only what open bursts need."""
+
+    def __init__(self, parameters: ExtractorParameters, pulses: Pulses, health: Health) -> None:
+        """Set up for the radar that the pulses come from.
+
+        Args:
+            parameters: what the user wants.
+            pulses: the first pulses; they are not processed yet.
+            health: where counts and rates go.
+
+        Raises:
+            ValueError: the parameters do not fit the radar.
+        """
+        self._parameters = parameters
+        self._health = health
+        self._layout = _layout(pulses)
+        cells = pulses.video.shape[1]
+        self._design = design(parameters, cells, pulses.azimuth_step)
+        self._method = METHODS[parameters.detector]
+        self._normaliser = NORMALISERS[parameters.normaliser](parameters, cells)
+        self._detector = self._method.detector(cells, self._design.longest)
+        self._meter = PowerMeter(self._normaliser.noise_scale, self._detector.memory)
+        self._merger = RingMerger(self._design.longest)
+        self._log = PulseLog()
+        self._tune()
+
+    def fits(self, pulses: Pulses) -> bool:
+        """Tell whether pulses have the range cells of this chain.
+
+        Args:
+            pulses: to look at.
+
+        Returns:
+            Whether they can be given to `extract`.
+        """
+        return _layout(pulses) == self._layout
+
+    def extract(self, pulses: Pulses) -> npt.NDArray[np.void]:
+        """Go on with the next pulses.
+
+        Args:
+            pulses: a continuation of those before.
+
+        Returns:
+            Plots completed, dtype PLOT, `time_offset` in the time of the pulses.
+
+        Raises:
+            ValueError: the rotation has changed to one that the parameters do not fit.
+        """
+        if abs(pulses.azimuth_step / self._design.step - 1.0) > _RETUNE:
+            self._design = design(self._parameters, self._layout[0], pulses.azimuth_step)
+            self._tune()
+            self._health.count("changes of the rotation")
+        return np.concatenate([self._block(*block) for block in _blocks(pulses)])
+
+    def finish(self) -> npt.NDArray[np.void]:
+        """End the stream of pulses; bursts that have not ended are dropped.
+
+        Returns:
+            Plots that waited for a neighbour.
+        """
+        self._health.drop("bursts cut by a break", len(self._detector.open_bursts()))
+        plots = self._plots(self._merger.finish())
+        self._detector.reset()
+        self._meter.reset()
+        return plots
+
+    def _block(
+        self, video: npt.NDArray, azimuth: npt.NDArray, time: npt.NDArray
+    ) -> npt.NDArray[np.void]:
+        first = self._log.append(azimuth, time, self._oldest())
+        ratios = self._meter.room(len(video))
+        bad = self._normaliser.ratios(video, ratios)
+        bits = self._quantiser.quantise(ratios)
+        closed = self._detector.detect(bits, first)
+        going = self._detector.open_bursts()
+        self._meter.measure(closed, going, first)
+        plots = self._plots(self._merger.add(closed, going, self._log.next - 1))
+
+        self._health.drop("samples that are not finite, taken as zero", bad)
+        self._health.count("pulses in", len(video))
+        self._health.count("bursts cut at their longest", int(closed["overflow"].sum()))
+        self._rates.add(len(video), self._quantiser.ones, len(plots))
+        return plots
+
+    def _plots(self, groups: Groups) -> npt.NDArray[np.void]:
+        bursts = groups.bursts
+        ratio = bursts["power"] / self._normaliser.noise_scale[bursts["ring"]]
+        stronger = self._normaliser.exceedance(ratio, bursts["ring"])
+        # Share of noise bursts whose peak is weaker: each of their ones exceeds this peak with the same probability.
+        chance = np.clip(stronger / self._design.noise_probability, 0.0, 1.0)
+        quality = (1.0 - chance) ** self._method.fewest_ones
+        plots = form_plots(
+            groups, quality, self._estimator, self._log, self._grid, self._parameters.target_rings
+        )
+        self._health.count("plots out", len(plots))
+        return plots
+
+    def _tune(self) -> None:
+        """Take over the design; bursts under way go on."""
+        cells, range_start, range_step = self._layout
+        plan = self._design
+        self._quantiser = self._method.quantiser(self._normaliser.threshold(plan.noise_probability))
+        self._estimator = ESTIMATORS[self._parameters.azimuth_estimator](plan.accuracy)
+        self._grid = Grid(range_start, range_step, plan.step)
+        self._detector.longest = self._merger.longest = plan.longest
+        self._rates = RateWatch(plan, cells, self._health)
+
+    def _oldest(self) -> int:
+        starts = [self._detector.open_bursts()["start"], self._merger.waiting["start"]]
+        return min((int(s.min()) for s in starts if len(s)), default=self._log.next) - _MARGIN
+
+
+def _layout(pulses: Pulses) -> tuple[int, float, float]:
+    return pulses.video.shape[1], pulses.range_start, pulses.range_step
+
+
+def _blocks(pulses: Pulses) -> Iterator[tuple[npt.NDArray, npt.NDArray, npt.NDArray]]:
+    """Parts whose ratios stay in the processor's cache; a message may hold a whole turn."""
+    for first in range(0, len(pulses.video), _BLOCK):
+        part = slice(first, first + _BLOCK)
+        yield pulses.video[part], pulses.azimuth[part], pulses.time[part]

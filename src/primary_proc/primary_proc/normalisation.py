@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What every normaliser offers: the power of each range cell against the noise level around it.
+
+A normaliser is bound to a number of range cells. It turns video into ratios and knows, exactly, with which probability
+a ratio of noise alone exceeds a threshold; everything behind it works on ratios and is independent of the noise level.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+
+
+class Normaliser(ABC):
+    """Divides the power of range cells by a statistic of the noise around them.
+
+    Attributes:
+        noise_scale: factor that makes a ratio the cell's power over the mean noise power, shape (cells,).
+    """
+
+    noise_scale: FloatArray
+
+    @abstractmethod
+    def ratios(self, video: npt.NDArray, out: npt.NDArray[np.float32]) -> int:
+        """Normalise some pulses.
+
+        Args:
+            video: linear envelope, shape (pulses, cells), of any real type.
+            out: where the ratios go, float32, shape (pulses, cells); infinite or NaN where the noise level is zero.
+
+        Returns:
+            How many samples were not finite; they count as zero.
+        """
+
+    @abstractmethod
+    def threshold(self, probability: float) -> FloatArray:
+        """Threshold that the ratio of noise alone exceeds with a given probability.
+
+        Args:
+            probability: p_N in (0, 1).
+
+        Returns:
+            Threshold of each cell, shape (cells,).
+        """
+
+    @abstractmethod
+    def exceedance(self, ratio: npt.ArrayLike, cell: npt.NDArray[np.integer]) -> FloatArray:
+        """Probability that the ratio of noise alone exceeds a value; inverse of `threshold`.
+
+        Args:
+            ratio: values, shape (n,).
+            cell: range cell of each, shape (n,).
+
+        Returns:
+            Probability, shape (n,).
+        """
+
+
+def square_finite(video: npt.NDArray, out: npt.NDArray[np.float32]) -> int:
+    """Square the envelope; samples that are not finite, or whose square is not, become zero.
+
+    Args:
+        video: shape (pulses, cells), of any real type.
+        out: float32, shape (pulses, cells).
+
+    Returns:
+        How many samples were not finite.
+    """
+    np.multiply(video, video, out=out, dtype=np.float32)
+    # The maximum of a pulse is NaN or infinite if any sample is: one cheap look instead of a mask.
+    broken = ~np.isfinite(out.max(axis=1, initial=0.0))
+    if not broken.any():
+        return 0
+    bad = ~np.isfinite(out[broken])
+    out[broken] = np.where(bad, np.float32(0.0), out[broken])
+    return int(bad.sum())

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Parameters of the plot extractor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from primary_proc.antenna_pattern import PATTERNS
+from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS
+from radar_common.parameters import ParameterError, Parameters, parameter
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExtractorParameters(Parameters):
+    """What a user may choose; thresholds follow from it."""
+
+    false_plots_per_scan: float = parameter(
+        10.0,
+        "false plots that receiver noise may make in one turn, over all cells; sets the threshold",
+        low=0.01,
+        high=1e5,
+    )
+    detector: str = parameter(
+        "3/4-2",
+        "burst detector: ones / positions that start a burst - zeros that end it",
+        choices=tuple(METHODS),
+    )
+    normaliser: str = parameter(
+        "cell-averaging", "how the noise level is found", choices=tuple(NORMALISERS)
+    )
+    reference_cells: int = parameter(
+        16,
+        "cell averaging: reference cells on each side; a power of two is fastest",
+        low=2,
+        high=256,
+    )
+    guard_cells: int = parameter(
+        2,
+        "cell averaging: cells on each side left out beside the one under test, "
+        "so that a target does not raise its own threshold",
+        low=0,
+        high=64,
+    )
+    noise_level: float = parameter(
+        0.0,
+        "fixed level: rms of the noise envelope in units of the video; must be given there",
+        low=0.0,
+        high=1e9,
+    )
+    azimuth_estimator: str = parameter(
+        "start-end", "how the azimuth of a burst is found", choices=tuple(ESTIMATORS)
+    )
+    beamwidth_deg: float = parameter(
+        1.4,
+        "one-way half-power beamwidth, as data sheets give it; with the rotation it tells the pulses of a burst",
+        unit="deg",
+        low=0.05,
+        high=30.0,
+    )
+    pattern: str = parameter(
+        "gaussian", "two-way amplitude pattern of the antenna", choices=tuple(PATTERNS)
+    )
+    longest_burst: float = parameter(
+        4.0,
+        "limit of a burst, as a multiple of the pulses of a point target's; longer ones are clutter",
+        low=1.5,
+        high=100.0,
+    )
+    target_rings: int = parameter(
+        6,
+        "range cells that a target may fill; plots that fill more have quality 0",
+        low=1,
+        high=1000,
+    )
+
+    def check(self) -> None:
+        """Check what must hold between the values.
+
+        Raises:
+            ParameterError: the combination cannot work; the text says why.
+        """
+        if self.normaliser == "fixed-level" and self.noise_level == 0.0:
+            raise ParameterError("normaliser fixed-level needs a noise_level over 0")
+        if self.normaliser == "cell-averaging" and self.guard_cells > 2 * self.reference_cells:
+            raise ParameterError(
+                f"{self.guard_cells} guard_cells lie between a cell and its {self.reference_cells} reference_cells: "
+                "a noise level from so far away is not that of the cell"
+            )

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One plot from each group of bursts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from primary_proc.azimuth_estimator import AzimuthEstimator
+from primary_proc.pulse_log import PulseLog
+from primary_proc.ring_merge import Groups
+from radar_common.frames import enu_from_polar
+from radar_common.tables import PLOT
+
+FloatArray = npt.NDArray[np.float64]
+
+_UNIFORM = 1.0 / np.sqrt(12.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Where the cells lie.
+
+    Attributes:
+        range_start: near edge of range cell 0, m.
+        range_step: length of a range cell, m.
+        azimuth_step: azimuth from pulse to pulse, rad.
+    """
+
+    range_start: float
+    range_step: float
+    azimuth_step: float
+
+
+def form_plots(
+    groups: Groups,
+    quality: FloatArray,
+    estimator: AzimuthEstimator,
+    log: PulseLog,
+    grid: Grid,
+    target_rings: int,
+) -> npt.NDArray[np.void]:
+    """Make plots.
+
+    Range is the centroid of the rings weighted by amplitude, azimuth the mean weighted by the inverse variances. What
+    is called amplitude, pulse count and quality is that of the strongest burst. A group with a burst cut off by its
+    limit, or with more rings than a target fills, is an extended echo: quality 0, errors as wide as the echo.
+
+    Args:
+        groups: bursts, powers filled in, with the plot of each.
+        quality: of each burst, shape (bursts,).
+        estimator: of the azimuth.
+        log: azimuth and time of pulses.
+        grid: of the cells.
+        target_rings: most rings that a target fills.
+
+    Returns:
+        Table of dtype PLOT; `time_offset` holds the time of the log.
+    """
+    bursts, plot, count = groups.bursts, groups.plot, len(groups)
+    plots = np.zeros(count, PLOT)
+    if not count:
+        return plots
+    centres = estimator.estimate(bursts)
+
+    def mean(weight: FloatArray, value: FloatArray) -> FloatArray:
+        return np.bincount(plot, weight * value, count) / np.bincount(plot, weight, count)
+
+    weight = 1.0 / centres.std**2
+    position = mean(weight, centres.position)
+    scatter = mean(weight, (centres.position - position[plot]) ** 2)
+    variance = np.maximum(1.0 / np.bincount(plot, weight, count), scatter)
+    amplitude = np.sqrt(bursts["power"].astype(float))
+    ring = mean(amplitude, bursts["ring"] + 0.5)
+
+    strongest = np.lexsort((bursts["power"], plot))[np.cumsum(np.bincount(plot)) - 1]
+    nearest = np.full(count, np.iinfo(np.int32).max)
+    farthest = np.full(count, -1)
+    np.minimum.at(nearest, plot, bursts["ring"])
+    np.maximum.at(farthest, plot, bursts["ring"])
+    rings = farthest - nearest + 1
+    extended = (rings > target_rings) | (np.bincount(plot, bursts["overflow"], count) > 0)
+
+    plots["azimuth"], plots["time_offset"] = log.at(position)
+    plots["range"] = grid.range_start + ring * grid.range_step
+    plots["x"], plots["y"] = enu_from_polar(plots["range"], plots["azimuth"])
+    plots["azimuth_std"] = grid.azimuth_step * np.sqrt(variance)
+    plots["range_std"] = grid.range_step * np.where(
+        extended, rings * _UNIFORM, _range_error(rings, bursts["power"][strongest])
+    )
+    plots["amplitude"] = amplitude[strongest]
+    plots["snr_db"] = 20.0 * np.log10(amplitude[strongest])
+    lengths = bursts["end"] - bursts["start"] + 1
+    plots["pulse_count"] = np.minimum(lengths[strongest], np.iinfo(np.uint16).max)
+    plots["quality"] = np.where(extended, 0.0, quality[strongest])
+    plots["radial_speed"] = plots["radial_speed_std"] = np.nan
+    return plots
+
+
+def _range_error(rings: npt.NDArray[np.int64], power: npt.NDArray[np.float32]) -> FloatArray:
+    """Standard deviation of the range centroid in cells.
+
+    One ring says no more than that the target lies in it. Two or more weigh the target's place between them, with an
+    error of the amplitudes' noise over the amplitude.
+    """
+    return np.where(rings == 1, _UNIFORM, np.hypot(_UNIFORM / rings, 1.0 / np.sqrt(2.0 * power)))

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Program detectors l/m-k on packed bits: 64 range rings an operation, ring by ring only where something happens.
+
+While l + k > m, no m positions with l ones hold k zeros in a row: a detection never reaches back across the end of the
+burst before. So the automaton (Kuzmin 1967, Table 3.10) does exactly this: a burst starts at the first position after
+the last end where l of m positions are ones, the newest among them, and ends with the first k zeros after that. Both
+are patterns of shifted rows, and all detections before the same end are one burst.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from primary_proc.automaton import Program
+from primary_proc.burst_detector import BURST, BurstDetector, bursts, in_order
+from primary_proc.quantiser import unpack_cells
+
+
+class ProgramDetector(BurstDetector):
+    """The bit-parallel form of `TableDetector`, equal to it bit for bit."""
+
+    def __init__(self, program: Program, rings: int, longest: int) -> None:
+        """Start in the initial state.
+
+        Args:
+            program: l/m-k with l + k > m.
+            rings: range rings.
+            longest: limit of a burst's length, in pulses.
+
+        Raises:
+            ValueError: the program has no bit-parallel form.
+        """
+        if program.ones + program.zeros <= program.window:
+            raise ValueError(f"{program} looks across the end of a burst; step its table instead")
+        self._program = program
+        self.memory = program.window - 1
+        self.longest = longest
+        self._history = max(program.window, program.zeros) - 1
+        self._column = np.zeros(rings, np.int64)
+        self._words = -(-rings // 64)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget all past pulses."""
+        self._past = np.zeros((self._history, self._words), np.uint64)
+        self._open = np.zeros(0, BURST)
+
+    def detect(self, samples: npt.NDArray, first: int) -> npt.NDArray[np.void]:
+        """Go on with the next pulses; see `BurstDetector.detect`.
+
+        Args:
+            samples: packed bits, shape (pulses, words).
+            first: number of the first pulse.
+
+        Returns:
+            Bursts that ended.
+        """
+        pulses = len(samples)
+        words = np.concatenate([self._past, samples])
+        self._past = words[pulses:]
+        pulse, ring = self._detections(words, pulses)
+        if not len(ring) and not len(self._open):
+            return np.zeros(0, BURST)
+        rings = np.union1d(ring, self._open["ring"])
+        self._column[rings] = np.arange(len(rings))
+        end = self._next_ends(words, rings, pulses)
+
+        # Detections of a ring that run into the same end are one burst, begun by the first of them.
+        stop = end[pulse, self._column[ring]]
+        begins = np.ones(len(ring), bool)
+        begins[1:] = (ring[1:] != ring[:-1]) | (stop[1:] != stop[:-1])
+        open_stop = end[0, self._column[self._open["ring"]]]
+        going_on = np.full(len(rings), -1)
+        going_on[self._column[self._open["ring"]]] = open_stop
+        begins &= going_on[self._column[ring]] != stop
+
+        started = bursts(ring[begins], first + pulse[begins], -1, False)
+        return self._close(
+            np.concatenate([self._open, started]),
+            np.concatenate([open_stop, stop[begins]]),
+            first,
+            pulses,
+        )
+
+    def open_bursts(self) -> npt.NDArray[np.void]:
+        """List the bursts that have not ended."""
+        return self._open[~self._open["overflow"]]
+
+    def _detections(
+        self, words: npt.NDArray[np.uint64], pulses: int
+    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+        """Pulse and ring of every position where the pattern is met, in order of ring and pulse."""
+        now = self._history
+        met = words[now:]
+        # enough[n]: the positions before this one, as far as looked at, hold n ones or more.
+        enough: dict[int, npt.NDArray[np.uint64]] = {}
+        for back in range(1, self._program.window):
+            row = words[now - back : now - back + pulses]
+            for count in range(min(back, self._program.ones - 1), 0, -1):
+                more = enough[count - 1] & row if count > 1 else row
+                enough[count] = enough[count] | more if count in enough else more
+        if self._program.ones > 1:
+            met = met & enough[self._program.ones - 1]
+        pulse, word = np.nonzero(met)
+        bits = np.unpackbits(met[pulse, word].view(np.uint8)).reshape(-1, 64)
+        entry, bit = np.nonzero(bits)
+        ring = word[entry] * 64 + bit
+        order = np.argsort(ring, kind="stable")
+        return pulse[entry][order], ring[order]
+
+    def _next_ends(
+        self, words: npt.NDArray[np.uint64], rings: npt.NDArray[np.int64], pulses: int
+    ) -> npt.NDArray[np.int32]:
+        """For each pulse and ring the first pulse from there on that completes k zeros, or `pulses`."""
+        bits = unpack_cells(words, rings)
+        busy = bits[self._history :]
+        for back in range(1, self._program.zeros):
+            busy = busy | bits[self._history - back : self._history - back + pulses]
+        numbers = np.arange(pulses, dtype=np.int32)[:, None]
+        ends = np.where(busy == 0, numbers, np.int32(pulses))
+        return np.minimum.accumulate(ends[::-1], axis=0)[::-1]
+
+    def _close(
+        self,
+        going: npt.NDArray[np.void],
+        stop: npt.NDArray[np.int32],
+        first: int,
+        pulses: int,
+    ) -> npt.NDArray[np.void]:
+        """Split bursts into those that ended, which are returned, and those kept open."""
+        silent = going["overflow"].copy()
+        last = np.minimum(first + stop, first + pulses - 1)
+        limit = going["start"] + self.longest
+        overflow = ~silent & (np.where(stop < pulses, last > limit, last >= limit))
+        going["overflow"] |= overflow
+        going["end"] = np.where(overflow, limit, last)
+        closed = in_order(going[overflow | ((stop < pulses) & ~silent)])
+        kept = going[stop == pulses]
+        kept["end"] = -1
+        self._open = kept[np.argsort(kept["ring"], kind="stable")]
+        return closed

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Azimuth and time of the last pulses, to be read between pulses."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from radar_common.frames import wrap_pi, wrap_two_pi
+
+FloatArray = npt.NDArray[np.float64]
+
+
+class PulseLog:
+    """Numbers pulses from the start of a stream and remembers where and when the last of them were.
+
+    Attributes:
+        next: number of the next pulse.
+    """
+
+    def __init__(self) -> None:
+        """Start with no pulse."""
+        self.next = 0
+        self._azimuth = np.zeros(0)
+        self._time = np.zeros(0)
+
+    def append(self, azimuth: FloatArray, time: FloatArray, keep: int) -> int:
+        """Add pulses and forget those that are no longer needed.
+
+        Args:
+            azimuth: rad, shape (n,).
+            time: s, shape (n,).
+            keep: number of the oldest pulse still needed.
+
+        Returns:
+            Number of the first pulse added.
+        """
+        first = self.next
+        old = max(keep - (first - len(self._azimuth)), 0)
+        self._azimuth = np.concatenate([self._azimuth[old:], azimuth])
+        self._time = np.concatenate([self._time[old:], time])
+        self.next += len(azimuth)
+        return first
+
+    def at(self, position: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Interpolate between pulses, also across north.
+
+        Args:
+            position: pulse numbers with fractions, shape (n,); outside the log its first or last pulse stands.
+
+        Returns:
+            (azimuth, time): rad in [0, 2 pi) and s, shape (n,).
+        """
+        oldest = self.next - len(self._azimuth)
+        place = np.clip(np.asarray(position) - oldest, 0, len(self._azimuth) - 1)
+        before = np.floor(place).astype(np.int64)
+        after = np.minimum(before + 1, len(self._azimuth) - 1)
+        part = place - before
+        turn = wrap_pi(self._azimuth[after] - self._azimuth[before])
+        pause = self._time[after] - self._time[before]
+        return (
+            wrap_two_pi(self._azimuth[before] + part * turn),
+            self._time[before] + part * pause,
+        )

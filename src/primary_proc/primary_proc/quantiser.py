@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Binary quantisation: one bit a cell, packed along range."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+_WORD = 64
+
+
+class BinaryQuantiser:
+    """Compares ratios with a threshold and packs the result.
+
+    Attributes:
+        ones: ones among the cells quantised last.
+    """
+
+    def __init__(self, threshold: npt.ArrayLike) -> None:
+        """Set the threshold.
+
+        Args:
+            threshold: on the ratio of each cell, shape (cells,).
+        """
+        self._threshold = np.asarray(threshold, np.float32)
+        self._bits = np.zeros((0, 0), bool)
+        self.ones = 0
+
+    def quantise(self, ratios: npt.NDArray[np.float32]) -> npt.NDArray[np.uint64]:
+        """Quantise some pulses.
+
+        Args:
+            ratios: float32, shape (pulses, cells); NaN gives a zero.
+
+        Returns:
+            Bits as `numpy.packbits` orders them in memory, filled up with zeros, shape (pulses, words of 64 cells).
+        """
+        pulses, cells = ratios.shape
+        if len(self._bits) != pulses:
+            self._bits = np.zeros((pulses, -(-cells // _WORD) * _WORD), bool)
+        with np.errstate(invalid="ignore"):
+            np.greater(ratios, self._threshold, out=self._bits[:, :cells])
+        self.ones = int(np.count_nonzero(self._bits))
+        return np.packbits(self._bits.reshape(-1)).view(np.uint64).reshape(pulses, -1)
+
+
+def unpack_cells(
+    words: npt.NDArray[np.uint64], cells: npt.NDArray[np.integer]
+) -> npt.NDArray[np.uint8]:
+    """Take the bits of some range cells out of packed pulses.
+
+    Args:
+        words: as `BinaryQuantiser.quantise` packs them, shape (pulses, words).
+        cells: range cells wanted, shape (n,).
+
+    Returns:
+        Zeros and ones, shape (pulses, n).
+    """
+    octets = words.view(np.uint8).reshape(len(words), -1)
+    return (octets[:, cells >> 3] >> (7 - (cells & 7)).astype(np.uint8)) & np.uint8(1)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bursts of adjacent range rings that overlap in azimuth belong to one target.
+
+Kuzmin (1967, ch. 3) leaves every ring to itself, so that a pulse across the edge of two range quanta would give two
+plots. Here the overlaps make a graph, and each connected part of it is one plot.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from primary_proc.burst_detector import BURST
+
+_LONGEST_CHAIN = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Groups:
+    """Bursts with the plot that each belongs to.
+
+    Attributes:
+        bursts: dtype BURST, shape (n,).
+        plot: number of the plot of each, from 0 without a gap, shape (n,).
+    """
+
+    bursts: npt.NDArray[np.void]
+    plot: npt.NDArray[np.int64]
+
+    def __len__(self) -> int:
+        """Count the plots."""
+        return int(self.plot.max()) + 1 if len(self.plot) else 0
+
+
+class RingMerger:
+    """Collects ended bursts until no burst that is still open can join them.
+
+    A burst that starts later cannot overlap one that has ended, so a part of the graph without an open burst is
+    complete. A part that has grown over more than two longest bursts, as along a coast, is cut.
+
+    Attributes:
+        longest: limit of a burst's length, in pulses.
+        waiting: bursts collected, dtype BURST.
+    """
+
+    def __init__(self, longest: int) -> None:
+        """Start with nothing collected.
+
+        Args:
+            longest: limit of a burst's length, in pulses.
+        """
+        self.longest = longest
+        self.waiting = np.zeros(0, BURST)
+
+    def add(self, closed: npt.NDArray[np.void], going: npt.NDArray[np.void], now: int) -> Groups:
+        """Take the bursts that ended and give those whose plot is complete.
+
+        Args:
+            closed: bursts that ended since the last call.
+            going: all bursts that have not ended.
+            now: number of the last pulse processed.
+
+        Returns:
+            Complete groups.
+        """
+        if not len(closed) and not len(self.waiting):
+            return Groups(self.waiting, np.zeros(0, np.int64))
+        bursts = np.concatenate([self.waiting, closed, going])
+        is_open = np.arange(len(bursts)) >= len(bursts) - len(going)
+        order = np.lexsort((bursts["start"], bursts["ring"]))
+        bursts, is_open = bursts[order], is_open[order]
+        end = np.where(is_open, now, bursts["end"])
+        part = _connected(bursts["ring"], bursts["start"], end)
+        parts = int(part.max()) + 1
+        grows = np.bincount(part, is_open, parts) > 0
+        begin = np.full(parts, now)
+        np.minimum.at(begin, part, bursts["start"])
+        grows &= now - begin <= _LONGEST_CHAIN * self.longest
+        self.waiting = bursts[grows[part] & ~is_open]
+        done = ~grows[part] & ~is_open
+        return Groups(bursts[done], np.unique(part[done], return_inverse=True)[1].astype(np.int64))
+
+    def finish(self) -> Groups:
+        """Give what was collected, complete or not.
+
+        Returns:
+            The groups.
+        """
+        return self.add(self.waiting[:0], self.waiting[:0], 0)
+
+
+def _connected(
+    ring: npt.NDArray[np.int32], start: npt.NDArray[np.int64], end: npt.NDArray[np.int64]
+) -> npt.NDArray[np.integer]:
+    """Number the connected parts of the overlap graph; bursts in order of ring and start.
+
+    Bursts of one ring lie one behind the other, so those of the next ring that overlap a burst are a run of the list:
+    from the first that ends at its start or later, to the last that starts at its end or earlier.
+    """
+    origin = int(start.min())
+    span = int(end.max()) - origin + 2
+    starts = ring * np.int64(span) + (start - origin)
+    ends = ring * np.int64(span) + (end - origin)
+    first = np.searchsorted(ends, starts + span, side="left")
+    stop = np.searchsorted(starts, ends + span, side="right")
+    count = np.maximum(stop - first, 0)
+    if not count.any():
+        return np.arange(len(ring))
+    one = np.repeat(np.arange(len(ring)), count)
+    other = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count - first, count)
+    graph = coo_array((np.ones(len(one), np.int8), (one, other)), (len(ring), len(ring)))
+    return connected_components(graph, directed=False)[1]

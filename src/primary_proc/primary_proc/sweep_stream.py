@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sector messages become one unbroken stream of pulses, or the reason why they do not is counted.
+
+A pulse continues the stream if its range cells are the same, its time is not earlier and its azimuth has gone on by
+no more than a few steps. Anything else breaks the stream: what follows starts afresh. North is not special.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from primary_proc.sweep_check import require_sweeps, usable_rows
+from radar_common.frames import TWO_PI, wrap_pi
+from radar_common.health import Health
+from radar_common.tables import NANOSECONDS, Table
+
+FloatArray = npt.NDArray[np.float64]
+
+FEWEST_PULSES = 16
+"""Pulses that must be there before the rotation is believed."""
+
+_BACK, _AHEAD = -0.6, 4.5  # Steps: encoders are coarse, and three lost pulses do no harm.
+_PAUSE = 0.25  # Scans.
+_UNEVEN = 0.125  # Share of breaks at which the azimuth cannot be followed.
+_STANDING = 0.25  # Share of the known step.
+_LEAST_STEP = 1e-6  # rad
+_LEARNING = 0.1  # Scans over which the step is averaged.
+
+
+@dataclass(frozen=True, slots=True)
+class Pulses:
+    """Consecutive pulses of one radar.
+
+    Attributes:
+        fresh: whether they do not continue the pulses before.
+        video: linear envelope, shape (n, cells).
+        azimuth: rad, shape (n,).
+        time: s after the stream's origin, shape (n,).
+        range_start: near edge of cell 0, m.
+        range_step: length of a cell, m.
+        azimuth_step: mean azimuth from pulse to pulse, rad.
+    """
+
+    fresh: bool
+    video: npt.NDArray
+    azimuth: FloatArray
+    time: FloatArray
+    range_start: float
+    range_step: float
+    azimuth_step: float
+
+
+class SweepStream:
+    """Orders and checks sectors.
+
+    Attributes:
+        origin: nanoseconds since the epoch from which times are counted; None before the first sector.
+    """
+
+    def __init__(self, health: Health) -> None:
+        """Start with no pulse.
+
+        Args:
+            health: where breaks and drops are counted.
+        """
+        self._health = health
+        self.origin: int | None = None
+        self.restart()
+
+    def take(self, sweeps: Table) -> list[Pulses]:
+        """Take a sector.
+
+        Args:
+            sweeps: one message of `radar/sweeps`.
+
+        Returns:
+            The pulses that can be processed now, split where the stream breaks.
+
+        Raises:
+            TableError: the message holds no sweeps.
+        """
+        require_sweeps(sweeps.rows)
+        if self.origin is None:
+            self.origin = sweeps.stamp
+        rows = usable_rows(sweeps.rows, self._health)
+        if not len(rows):
+            return []
+        time = (sweeps.stamp - self.origin) / NANOSECONDS + rows["time_offset"]
+        if self._is_late(float(time[0])):
+            return []
+        self._latest = float(time[-1])
+        if not self._step:
+            held = self._hold(rows, time)
+            if held is None:
+                return []
+            rows, time = held
+        return self._split(rows, time)
+
+    def restart(self) -> None:
+        """Forget the pulses before and what is known of the rotation."""
+        self._held: list[tuple[npt.NDArray[np.void], FloatArray]] = []
+        self._last: npt.NDArray[np.void] | None = None
+        self._latest = -np.inf
+        self._step = self._period = 0.0
+        self._advance, self._advanced = 0.0, 0
+
+    def _is_late(self, time: float) -> bool:
+        if time > self._latest:
+            return False
+        if self._latest - time <= max(self._period, 1.0):
+            self._health.drop("sector repeated or out of order")
+            return True
+        self._health.drop("clock went back")
+        self.restart()
+        return False
+
+    def _hold(
+        self, rows: npt.NDArray[np.void], time: FloatArray
+    ) -> tuple[npt.NDArray[np.void], FloatArray] | None:
+        """Keep pulses until there are enough to tell the azimuth step from them."""
+        if self._held and self._held[0][0].dtype != rows.dtype:
+            self._health.drop("too few pulses of a layout", len(self._held))
+            self._held = []
+        self._held.append((rows, time))
+        if sum(len(part) for part, _ in self._held) < FEWEST_PULSES:
+            return None
+        rows = np.concatenate([part for part, _ in self._held])
+        time = np.concatenate([part for _, part in self._held])
+        self._held = []
+        step = _mean_step(rows["azimuth"])
+        if step < _LEAST_STEP:
+            self._health.drop("pulses while the antenna stands still or turns back", len(rows))
+            return None
+        self._step = step
+        self._period = TWO_PI / step * (time[-1] - time[0]) / (len(time) - 1)
+        return rows, time
+
+    def _split(self, rows: npt.NDArray[np.void], time: FloatArray) -> list[Pulses]:
+        """Cut pulses where they do not continue each other."""
+        turn, breaks = self._breaks(rows, time)
+        if np.count_nonzero(breaks[1:]) > _UNEVEN * len(rows):
+            self._health.drop("pulses whose azimuth or time advances unevenly", len(rows))
+            self.restart()
+            self._latest = float(time[-1])
+            return []
+        if not self._follow(turn[~breaks]):
+            self._health.drop("pulses while the antenna stands still or turns back", len(rows))
+            self.restart()
+            self._latest = float(time[-1])
+            return []
+        self._last = np.array(rows[-1:])
+        self._last_time = float(time[-1])
+        bounds = [0, *np.flatnonzero(breaks[1:]) + 1, len(rows)]
+        return [
+            Pulses(
+                fresh=bool(breaks[begin]),
+                video=rows["video"][begin:end],
+                azimuth=rows["azimuth"][begin:end],
+                time=time[begin:end],
+                range_start=float(rows["range_start"][begin]),
+                range_step=float(rows["range_step"][begin]),
+                azimuth_step=self._step,
+            )
+            for begin, end in zip(bounds[:-1], bounds[1:], strict=True)
+        ]
+
+    def _breaks(
+        self, rows: npt.NDArray[np.void], time: FloatArray
+    ) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
+        """Turn of the antenna before each pulse, and whether the stream breaks there."""
+        last = self._last
+        if last is None or last.dtype != rows.dtype:
+            if last is not None:
+                self._health.drop("stream broken by other range cells")
+            before, before_time, started = rows[:1], float(time[0]), True
+        else:
+            before, before_time, started = last, self._last_time, False
+
+        def previous(name: str) -> npt.NDArray[np.float64]:
+            return np.concatenate([before[name], rows[name][:-1]])
+
+        turn = wrap_pi(rows["azimuth"] - previous("azimuth"))
+        pause = np.diff(time, prepend=before_time)
+        jumped = (turn < _BACK * self._step) | (turn > _AHEAD * self._step) | (pause < 0.0)
+        if self._period:
+            jumped |= pause > _PAUSE * self._period
+        other = (rows["range_start"] != previous("range_start")) | (
+            rows["range_step"] != previous("range_step")
+        )
+        self._health.drop("stream broken by a gap or jump of azimuth or time", jumped.sum())
+        self._health.drop("stream broken by other range cells", other.sum())
+        breaks = jumped | other
+        breaks[0] |= started
+        return turn, breaks
+
+    def _follow(self, turn: FloatArray) -> bool:
+        """Average the azimuth step; tell whether the antenna turns at all."""
+        self._advance += float(turn.sum())
+        self._advanced += len(turn)
+        if self._advanced < FEWEST_PULSES:
+            return True
+        mean = self._advance / self._advanced
+        if mean < _STANDING * self._step:
+            return False
+        share = min(1.0, self._advanced * self._step / (_LEARNING * TWO_PI))
+        self._period *= self._step / (self._step + share * (mean - self._step))
+        self._step += share * (mean - self._step)
+        self._advance, self._advanced = 0.0, 0
+        return True
+
+
+def _mean_step(azimuth: FloatArray) -> float:
+    """Mean step without lost pulses; also of an encoder that is coarser than the step."""
+    turn = wrap_pi(np.diff(azimuth))
+    middle = float(np.median(turn))
+    if middle <= 0.0:
+        return float(turn.mean())
+    return float(turn[(turn > -middle) & (turn < 1.5 * middle)].mean())
