@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What an evaluation is worth in numbers, one question a module."""
