@@ -83,3 +83,16 @@ def in_order(table: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
         The same bursts in order.
     """
     return table[np.lexsort((table["ring"], table["end"]))] if len(table) > 1 else table
+
+
+def joined(*tables: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
+    """Concatenate tables of one dtype; most of the time all but one are empty, and numpy is slow on structures.
+
+    Args:
+        tables: at least one.
+
+    Returns:
+        The rows of all, in order.
+    """
+    filled = [table for table in tables if len(table)]
+    return np.concatenate(filled) if len(filled) > 1 else (filled or tables)[0]

@@ -8,6 +8,8 @@ import numpy.typing as npt
 
 from primary_proc.normalisation import FloatArray, Normaliser, square_finite
 
+Block = npt.NDArray[np.float32]
+
 _BLOCK_BYTES = 128 * 1024
 
 
@@ -42,7 +44,7 @@ class CellAveraging(Normaliser):
         width = cells + 2 * self._pad
         self._rows = max(1, _BLOCK_BYTES // (4 * width))
         self._power = np.zeros((self._rows, width), np.float32)
-        self._sums = [np.zeros(self._rows * width, np.float32) for _ in range(3)]
+        self._sums, self._additions = self._plan()
         self._count = _window_population(cells, reference, guard)
         self.noise_scale = self._count.astype(float)
 
@@ -57,7 +59,6 @@ class CellAveraging(Normaliser):
             How many samples were not finite.
         """
         inner = self._power[:, self._pad : self._pad + self._cells]
-        shape = self._power.shape
         bad = 0
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             # A block of pulses stays in the processor's cache from the first pass to the last.
@@ -65,7 +66,9 @@ class CellAveraging(Normaliser):
                 block = video[first : first + self._rows]
                 count = len(block)
                 bad += square_finite(block, inner[:count])
-                sums = self._window_sums(count).reshape(count, shape[1])[:, : self._cells]
+                for one, other, total in self._additions:
+                    np.add(one, other, out=total)
+                sums = self._sums[:count, : self._cells]
                 np.divide(inner[:count], sums, out=out[first : first + count])
         return bad
 
@@ -92,40 +95,36 @@ class CellAveraging(Normaliser):
         """
         return np.exp(-self._count[cell] * np.log1p(ratio))
 
-    def _window_sums(self, pulses: int) -> npt.NDArray[np.float32]:
-        """Sums over both halves of the window, flat, aligned with the unpadded cell.
+    def _plan(self) -> tuple[Block, list[tuple[Block, Block, Block]]]:
+        """Lay out the additions that lead to the sums over both halves of the window.
 
-        Pulses lie one behind another; the zeros between them keep their windows apart.
+        Pulses lie one behind another in flat buffers; the zeros between them keep their windows apart.
+
+        Returns:
+            The sums, shape (pulses of a block, width), column c for cell c, and the additions in their order.
         """
-        size = pulses * self._power.shape[1]
-        doubled = self._power.reshape(-1)[:size]
-        spare, other, total = (buffer[:size] for buffer in self._sums)
-        width, covered = 1, 0
-        half: npt.NDArray[np.float32] | None = None
+        power = self._power.reshape(-1)
+        buffers = [np.zeros_like(power) for _ in range(3)]
+        additions = []
+
+        def add(one: Block, other: Block, shift: int, *kept: Block | None) -> Block:
+            """Add an array, moved, to another, into a buffer that neither they nor the kept one use."""
+            total = next(b for b in buffers if not any(b is used for used in (one, other, *kept)))
+            size = len(total) - shift
+            additions.append((one[:size], other[shift:], total[:size]))
+            return total
+
+        doubled, half, width, covered = power, None, 1, 0
         while width <= self._reference:
             if self._reference & width:
-                if half is None:
-                    half = doubled
-                else:
-                    np.add(half[: size - covered], doubled[covered:], out=total[: size - covered])
-                    half = total
+                half = doubled if half is None else add(half, doubled, covered)
                 covered += width
             if 2 * width <= self._reference:
-                target = _not_in_use((spare, other, total), doubled, half)
-                np.add(doubled[:-width], doubled[width:], out=target[:-width])
-                doubled = target
+                doubled = add(doubled, doubled, width, half)
             width *= 2
         assert half is not None
-        shift = self._reference + 2 * self._guard + 1
-        result = _not_in_use((spare, other, total), half)
-        np.add(half[:-shift], half[shift:], out=result[:-shift])
-        return result
-
-
-def _not_in_use(
-    buffers: tuple[npt.NDArray[np.float32], ...], *used: npt.NDArray[np.float32] | None
-) -> npt.NDArray[np.float32]:
-    return next(b for b in buffers if not any(b is u for u in used))
+        sums = add(half, half, self._reference + 2 * self._guard + 1)
+        return sums.reshape(self._power.shape), additions
 
 
 def _window_population(cells: int, reference: int, guard: int) -> npt.NDArray[np.int64]:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
+from primary_proc.burst_detector import joined
 from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS
 from primary_proc.design import design
 from primary_proc.parameters import ExtractorParameters
@@ -18,7 +19,9 @@ from primary_proc.rate_watch import RateWatch
 from primary_proc.ring_merge import Groups, RingMerger
 from primary_proc.sweep_stream import Pulses
 from radar_common.health import Health
+from radar_common.tables import PLOT
 
+_NO_PLOTS = np.zeros(0, PLOT)
 _BLOCK = 128
 _RETUNE = 0.02
 _MARGIN = 8
@@ -78,7 +81,7 @@ class ExtractionChain:
             self._design = design(self._parameters, self._layout[0], pulses.azimuth_step)
             self._tune()
             self._health.count("changes of the rotation")
-        return np.concatenate([self._block(*block) for block in _blocks(pulses)])
+        return joined(*[self._block(*block) for block in _blocks(pulses)])
 
     def finish(self) -> npt.NDArray[np.void]:
         """End the stream of pulses; bursts that have not ended are dropped.
@@ -112,6 +115,8 @@ class ExtractionChain:
 
     def _plots(self, groups: Groups) -> npt.NDArray[np.void]:
         bursts = groups.bursts
+        if not len(bursts):
+            return _NO_PLOTS
         ratio = bursts["power"] / self._normaliser.noise_scale[bursts["ring"]]
         stronger = self._normaliser.exceedance(ratio, bursts["ring"])
         # Share of noise bursts whose peak is weaker: each of their ones exceeds this peak with the same probability.

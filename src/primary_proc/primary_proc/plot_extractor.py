@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from primary_proc.burst_detector import joined
 from primary_proc.extraction_chain import ExtractionChain
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.sweep_stream import Pulses, SweepStream
@@ -67,13 +68,13 @@ class PlotExtractor:
         try:
             if self._chain is None or not self._chain.fits(pulses):
                 self._chain = ExtractionChain(self._parameters, pulses, self._health)
-            return np.concatenate([finished, self._chain.extract(pulses)])
+            return joined(finished, self._chain.extract(pulses))
         except ValueError as error:
             raise TableError(f"sweeps do not fit the parameters: {error}") from error
 
     def _table(self, found: list[npt.NDArray[np.void]]) -> Table:
         """Plots in order of time, their times counted from the sector's stamp."""
-        plots = np.concatenate([_NO_PLOTS, *found])
+        plots = joined(_NO_PLOTS, *found).copy()
         plots["time_offset"] -= (self._stamp - (self._stream.origin or 0)) / NANOSECONDS
         return Table(
             self._stamp, plots[np.argsort(plots["time_offset"], kind="stable")], self._frame

@@ -49,7 +49,7 @@ def form_plots(
     limit, or with more rings than a target fills, is an extended echo: quality 0, errors as wide as the echo.
 
     Args:
-        groups: bursts, powers filled in, with the plot of each.
+        groups: bursts, powers filled in, with the plot of each; at least one.
         quality: of each burst, shape (bursts,).
         estimator: of the azimuth.
         log: azimuth and time of pulses.
@@ -61,8 +61,6 @@ def form_plots(
     """
     bursts, plot, count = groups.bursts, groups.plot, len(groups)
     plots = np.zeros(count, PLOT)
-    if not count:
-        return plots
     centres = estimator.estimate(bursts)
 
     def mean(weight: FloatArray, value: FloatArray) -> FloatArray:

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from primary_proc.automaton import Program
-from primary_proc.burst_detector import BURST, BurstDetector, bursts, in_order
+from primary_proc.burst_detector import BURST, BurstDetector, bursts, in_order, joined
 from primary_proc.quantiser import unpack_cells
 
 
@@ -77,7 +77,7 @@ class ProgramDetector(BurstDetector):
 
         started = bursts(ring[begins], first + pulse[begins], -1, False)
         return self._close(
-            np.concatenate([self._open, started]),
+            joined(self._open, started),
             np.concatenate([open_stop, stop[begins]]),
             first,
             pulses,

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from primary_proc.burst_detector import BURST
+from primary_proc.burst_detector import BURST, joined
 
 _LONGEST_CHAIN = 2
 
@@ -69,7 +69,7 @@ class RingMerger:
         """
         if not len(closed) and not len(self.waiting):
             return Groups(self.waiting, np.zeros(0, np.int64))
-        bursts = np.concatenate([self.waiting, closed, going])
+        bursts = joined(self.waiting, closed, going)
         is_open = np.arange(len(bursts)) >= len(bursts) - len(going)
         order = np.lexsort((bursts["start"], bursts["ring"]))
         bursts, is_open = bursts[order], is_open[order]

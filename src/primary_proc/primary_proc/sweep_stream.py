@@ -8,6 +8,7 @@ no more than a few steps. Anything else breaks the stream: what follows starts a
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -164,7 +165,7 @@ class SweepStream:
                 range_step=float(rows["range_step"][begin]),
                 azimuth_step=self._step,
             )
-            for begin, end in zip(bounds[:-1], bounds[1:], strict=True)
+            for begin, end in pairwise(bounds)
         ]
 
     def _breaks(
