@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import signal
 import subprocess
@@ -57,13 +58,13 @@ class RosProcess:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Interrupt the process as Ctrl-C would, and kill it if it does not end."""
+        """Interrupt the process and its children as Ctrl-C would, and kill what does not end."""
         if self._process.poll() is None:
-            self._process.send_signal(signal.SIGINT)
+            os.killpg(self._process.pid, signal.SIGINT)
         try:
             self._process.wait(STOP_TIMEOUT)
         except subprocess.TimeoutExpired:
-            self._process.kill()
+            os.killpg(self._process.pid, signal.SIGKILL)
             self._process.wait()
         self._reader.join(STOP_TIMEOUT)
 
