@@ -22,7 +22,7 @@ SectionT = TypeVar("SectionT", bound=Parameters)
 _KEYS = {"title", "radar", "targets", "traffic"}
 
 
-class ScenarioError(ValueError):
+class ScenarioError(ParameterError):
     """A scenario cannot be used; the text names the file, the key and the reason."""
 
 

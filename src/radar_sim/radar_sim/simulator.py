@@ -38,6 +38,11 @@ class Simulator:
 
     Noise, fluctuation and traffic come from independent streams of the seed and are drawn in order of pulses and
     bursts, so the number of sectors changes nothing in the data but their division into messages.
+
+    Attributes:
+        radar: the scenario's radar.
+        targets: all targets, the traffic drawn.
+        start: stamp of the first pulse, nanoseconds; may be set until the first sector is made.
     """
 
     def __init__(
@@ -76,19 +81,18 @@ class Simulator:
         self._dtype = sweep_dtype(self.radar.cells, sample)
         self._sectors = sectors
         self._number = scans * sectors if scans else None
-        self._start = start
+        self.start = start
         self._sector = 0
         self._turns_made = 0
         self._echoes = _NO_ECHOES
         self._truth = np.empty(0, TRUTH)
 
     @classmethod
-    def from_parameters(cls, parameters: SimulatorParameters, *, start: int | None = None) -> Self:
+    def from_parameters(cls, parameters: SimulatorParameters) -> Self:
         """Build a simulator as the node does.
 
         Args:
-            parameters: scenario, seed, number of scans and sectors, sample type.
-            start: stamp of the first pulse, nanoseconds; None takes the parameter start_time.
+            parameters: scenario, seed, number of scans and sectors, sample type, start time.
 
         Returns:
             The simulator.
@@ -103,7 +107,7 @@ class Simulator:
             sectors=parameters.sectors,
             scans=parameters.scans,
             sample=parameters.sample,
-            start=parameters.start_time * NANOSECONDS if start is None else start,
+            start=parameters.start_time * NANOSECONDS,
         )
 
     @property
@@ -129,8 +133,8 @@ class Simulator:
         first, after = self._first_pulse(self._sector), self._first_pulse(self._sector + 1)
         self._sector += 1
         self._look_ahead(after)
-        stamp = self._start + round(first * self.radar.pulse_interval * NANOSECONDS)
-        since_start = (stamp - self._start) / NANOSECONDS
+        stamp = self.start + round(first * self.radar.pulse_interval * NANOSECONDS)
+        since_start = (stamp - self.start) / NANOSECONDS
         sweeps = self._sweeps(first, after, since_start)
         truth = self._take_truth(after, since_start)
         return Sector(Table(stamp, sweeps, RADAR_FRAME), Table(stamp, truth, SITE_FRAME))

@@ -9,6 +9,7 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 from builtin_interfaces.msg import Time
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import PointCloud2, PointField
@@ -60,6 +61,22 @@ class TablePublisher:
             table: what to send.
         """
         self._publisher.publish(encode(table, TYPES))
+
+    @property
+    def subscriptions(self) -> int:
+        """Number of subscriptions that are connected."""
+        return int(self._publisher.get_subscription_count())
+
+    def wait_until_received(self, timeout: float) -> bool:
+        """Wait until every reliable subscription has received everything.
+
+        Args:
+            timeout: seconds at most.
+
+        Returns:
+            Whether they have.
+        """
+        return bool(self._publisher.wait_for_all_acked(Duration(seconds=timeout)))
 
 
 class TableSubscription:
