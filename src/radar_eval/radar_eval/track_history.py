@@ -119,8 +119,10 @@ def join_plots(tracks: TimedRows, plots: TimedRows) -> IntArray:
         return found
     rows = tracks.rows[updated]
     tree = cKDTree(np.stack([plots.rows["range"], plots.rows["azimuth"], plots.time], axis=1))
-    _, nearest = tree.query(
-        np.stack([rows["plot_range"], rows["plot_azimuth"], tracks.time[updated]], axis=1)
+    nearest = np.asarray(
+        tree.query(
+            np.stack([rows["plot_range"], rows["plot_azimuth"], tracks.time[updated]], axis=1)
+        )[1]
     )
     same = (
         (plots.rows["range"][nearest] == rows["plot_range"])

@@ -45,7 +45,8 @@ def gospa_over_time(evaluation: Evaluation) -> GospaOverTime:
         The distance and its parts.
     """
     cutoff, period = evaluation.options.gospa_cutoff, evaluation.rotation.period
-    time = np.arange(evaluation.tables.start + period, evaluation.tables.stop, period)
+    # The last turn is left out: a target whose last plot was in it would already seem to be gone.
+    time = np.arange(evaluation.tables.start + period, evaluation.tables.stop - period, period)
     targets = _targets_at(evaluation, time)
     tracks = _tracks_at(evaluation, time)
     parts = [gospa(x, y, cutoff=cutoff) for x, y in zip(targets, tracks, strict=True)]
