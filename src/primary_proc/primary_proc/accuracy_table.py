@@ -11,7 +11,7 @@ from scipy.special import chndtr
 
 from primary_proc.antenna_pattern import burst_shape
 from primary_proc.automaton import Program
-from primary_proc.azimuth_accuracy import azimuth_error
+from primary_proc.automaton_chain import StartEnd, first_detection, start_end_distribution
 from primary_proc.single_pulse import steady_probability, threshold_for
 
 FloatArray = npt.NDArray[np.float64]
@@ -67,12 +67,32 @@ def accuracy_table(program: Program, noise: float, pattern: str, pulses: float) 
     threshold = float(threshold_for(noise))
     shape = burst_shape(pattern, pulses, _OFFSETS, book=False)
     amplitude = _AMPLITUDES[:, None, None] * shape
-    error = azimuth_error(program, noise, steady_probability(threshold, amplitude), _OFFSETS)
-    weight = error.bursts / error.bursts.sum(axis=1, keepdims=True)
-    bias = (weight * error.bias).sum(axis=1)
-    variance = (weight * (error.std**2 + (error.bias - bias[:, None]) ** 2)).sum(axis=1)
+    signal = steady_probability(threshold, amplitude)
+    joint = start_end_distribution(program, noise, signal)
+    target = (shape.shape[-1] + 1) / 2.0 + _OFFSETS[:, None, None]
+    weight = _of_plots(program, joint, target, first_detection(program, noise, signal))
+    weight /= weight.sum(axis=(1, 2, 3), keepdims=True)
+    error = (joint.start[:, None] + joint.end) / 2.0 - target
+    bias = (weight * error).sum(axis=(1, 2, 3))
+    variance = (weight * error**2).sum(axis=(1, 2, 3)) - bias**2
     peak = np.maximum(_median_peak(amplitude[:, 1]), threshold)
     return AccuracyTable(np.maximum.accumulate(peak**2 / 2.0), bias, np.sqrt(variance))
+
+
+def _of_plots(
+    program: Program, joint: StartEnd, target: FloatArray, detected: FloatArray
+) -> FloatArray:
+    """Probability of each start and end to be the burst that a plot is made of.
+
+    Where a target gives several bursts, the one over its middle outweighs the fragments beside it. Those count as far
+    as there is no burst over the middle.
+    """
+    over = (joint.start[:, None] - program.window < target) & (joint.end >= target)
+    middle = np.where(over, joint.probability, 0.0)
+    beside = joint.probability - middle
+    alone = np.maximum(detected - middle.sum(axis=(-2, -1)), 0.0)
+    fragments = np.maximum(beside.sum(axis=(-2, -1)), np.finfo(float).tiny)
+    return middle + beside * np.minimum(alone / fragments, 1.0)[..., None, None]
 
 
 def _median_peak(amplitude: FloatArray) -> FloatArray:

@@ -24,7 +24,7 @@ def sinc2(angle: npt.ArrayLike) -> FloatArray:
     Returns:
         Two-way amplitude, 1 on the axis, same shape.
     """
-    return np.where(np.abs(angle) < 1.0, np.square(np.sinc(angle)), 0.0)
+    return np.where(np.abs(angle) < 1.0, np.square(np.sinc(np.asarray(angle))), 0.0)
 
 
 def gaussian(angle: npt.ArrayLike) -> FloatArray:

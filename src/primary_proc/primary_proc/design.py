@@ -26,6 +26,7 @@ class Design:
         noise_probability: p_N, probability of a one in noise.
         false_plots_per_scan: what noise is predicted to make.
         longest: limit of a burst, in pulses.
+        gap: pulses between bursts that still make one plot.
         accuracy: azimuth accuracy against the burst's peak.
     """
 
@@ -35,6 +36,7 @@ class Design:
     noise_probability: float
     false_plots_per_scan: float
     longest: int
+    gap: int
     accuracy: AccuracyTable
 
 
@@ -65,7 +67,8 @@ def design(parameters: ExtractorParameters, rings: int, step: float) -> Design:
             f"a beam of {parameters.beamwidth_deg:g} deg holds {pulses:.1f} pulses, "
             f"detector {parameters.detector} needs {method.fewest_pulses}"
         )
-    noise = method.noise_probability(parameters.false_plots_per_scan, rings, pulses_per_scan)
+    gap = round(parameters.merge_gap * pulses)
+    noise = method.noise_probability(parameters.false_plots_per_scan, rings, pulses_per_scan, gap)
     return Design(
         step=step,
         pulses_per_scan=pulses_per_scan,
@@ -73,5 +76,6 @@ def design(parameters: ExtractorParameters, rings: int, step: float) -> Design:
         noise_probability=noise,
         false_plots_per_scan=parameters.false_plots_per_scan,
         longest=math.ceil(parameters.longest_burst * pulses),
+        gap=gap,
         accuracy=method.accuracy(noise, parameters.pattern, pulses),
     )

@@ -29,13 +29,16 @@ class DetectionMethod(ABC):
     fewest_ones: int
 
     @abstractmethod
-    def noise_probability(self, false_plots: float, rings: int, pulses_per_scan: float) -> float:
+    def noise_probability(
+        self, false_plots: float, rings: int, pulses_per_scan: float, gap: int
+    ) -> float:
         """Probability of a one in noise for a number of false plots per scan.
 
         Args:
             false_plots: wanted false plots of the whole coverage in one turn.
             rings: range rings.
             pulses_per_scan: azimuth positions in one turn.
+            gap: pulses between bursts that still make one plot.
 
         Returns:
             p_N.
@@ -93,18 +96,21 @@ class ProgramMethod(DetectionMethod):
         self.program = program
         self.fewest_pulses = self.fewest_ones = program.ones
 
-    def noise_probability(self, false_plots: float, rings: int, pulses_per_scan: float) -> float:
+    def noise_probability(
+        self, false_plots: float, rings: int, pulses_per_scan: float, gap: int
+    ) -> float:
         """Probability of a one in noise; see `DetectionMethod.noise_probability`.
 
         Args:
             false_plots: wanted false plots per scan.
             rings: range rings.
             pulses_per_scan: azimuth positions in one turn.
+            gap: pulses between bursts that still make one plot.
 
         Returns:
             p_N.
         """
-        return noise_probability_for_rate(self.program, false_plots, rings, pulses_per_scan)
+        return noise_probability_for_rate(self.program, false_plots, rings, pulses_per_scan, gap)
 
     def accuracy(self, noise: float, pattern: str, pulses: float) -> AccuracyTable:
         """Azimuth accuracy; see `DetectionMethod.accuracy`.

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -50,7 +51,7 @@ class ExtractionChain:
         self._normaliser = NORMALISERS[parameters.normaliser](parameters, cells)
         self._detector = self._method.detector(cells, self._design.longest)
         self._meter = PowerMeter(self._normaliser.noise_scale, self._detector.memory)
-        self._merger = RingMerger(self._design.longest)
+        self._merger = RingMerger(self._design.longest, self._design.gap)
         self._log = PulseLog()
         self._tune()
 
@@ -134,8 +135,10 @@ class ExtractionChain:
         plan = self._design
         self._quantiser = self._method.quantiser(self._normaliser.threshold(plan.noise_probability))
         self._estimator = ESTIMATORS[self._parameters.azimuth_estimator](plan.accuracy)
-        self._grid = Grid(range_start, range_step, plan.step)
+        threshold = -math.log(plan.noise_probability)
+        self._grid = Grid(range_start, range_step, plan.step, threshold)
         self._detector.longest = self._merger.longest = plan.longest
+        self._merger.gap = plan.gap
         self._rates = RateWatch(plan, cells, self._health)
 
     def _oldest(self) -> int:

@@ -3,16 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from scipy.optimize import brentq
+from scipy.special import lambertw
 
 from primary_proc import cascade_chain
 from primary_proc.automaton import Program, program_automaton
 from primary_proc.automaton_chain import noise_state, start_probability
 
 _SMALLEST, _LARGEST = 1e-5, 0.3
+_DENSEST = 0.2
+_ITERATIONS = 3
 
 
 def false_start_probability(program: Program, noise: float, model: str = "exact") -> float:
@@ -54,51 +55,80 @@ def noise_probability(program: Program, false_start: float, model: str = "exact"
     Raises:
         ValueError: more false starts are wanted than the program should ever give.
     """
-    return _invert(lambda noise: false_start_probability(program, noise, model), false_start)
+    lowest, highest = (
+        false_start_probability(program, noise, model) for noise in (_SMALLEST, _LARGEST)
+    )
+    if not lowest < false_start < highest:
+        raise ValueError(
+            f"a false-start probability of {false_start:.3g} is out of reach of {program}: "
+            f"p_N from {_SMALLEST:g} to {_LARGEST:g} gives {lowest:.3g} to {highest:.3g}"
+        )
+
+    def excess(logarithm: float) -> float:
+        noise = float(np.exp(logarithm))
+        return float(np.log(false_start_probability(program, noise, model) / false_start))
+
+    return float(np.exp(brentq(excess, np.log(_SMALLEST), np.log(_LARGEST))))
 
 
 def false_plots_per_scan(
-    program: Program, noise: float, rings: int, pulses_per_scan: float
+    program: Program, noise: float, rings: int, pulses_per_scan: float, gap: int = 0
 ) -> float:
-    """False plots of the whole coverage in one turn, (3.75)-(3.76), less those that merge with a neighbour.
+    """False plots of the whole coverage in one turn, (3.75)-(3.76), less those that merge with another.
 
-    Bursts of adjacent rings that overlap become one plot. To first order that takes away the number of overlapping
-    pairs, a share of about 10 P_fa. Noise samples of adjacent rings are taken as independent.
+    Bursts of the same or of adjacent rings that are near each other become one plot. Bursts come as a Poisson process,
+    so a plot is a burst with no other in the room before it; the noise of adjacent rings is taken as independent.
 
     Args:
         program: l/m-k.
         noise: probability p_N of a one.
         rings: range rings.
         pulses_per_scan: azimuth positions in one turn.
+        gap: most pulses between two bursts that make one plot.
 
     Returns:
         Mean number of plots.
     """
     start = false_start_probability(program, noise)
-    pairs = (rings - 1) * start**2 * (2.0 * mean_noise_length(program, noise) + 1.0)
-    return pulses_per_scan * (rings * start - pairs)
+    room = _merging_room(program, noise, rings, gap)
+    return float(pulses_per_scan * rings * start * np.exp(-room * start))
 
 
 def noise_probability_for_rate(
-    program: Program, false_plots: float, rings: int, pulses_per_scan: float
+    program: Program, false_plots: float, rings: int, pulses_per_scan: float, gap: int = 0
 ) -> float:
-    """Probability of a one in noise that gives a number of false plots per scan.
+    """Probability of a one in noise that gives a number of false plots per scan; inverse of the above.
 
     Args:
         program: l/m-k.
         false_plots: wanted false plots of the whole coverage in one turn.
         rings: range rings.
         pulses_per_scan: azimuth positions in one turn.
+        gap: most pulses between two bursts that make one plot.
 
     Returns:
         p_N.
 
     Raises:
-        ValueError: more false plots are wanted than the program should ever give on so few cells.
+        ValueError: so many false plots are wanted that they would grow together.
     """
-    return _invert(
-        lambda noise: false_plots_per_scan(program, noise, rings, pulses_per_scan), false_plots
-    )
+    share = false_plots / (rings * pulses_per_scan)
+    noise = noise_probability(program, share)
+    for _ in range(_ITERATIONS):
+        room = _merging_room(program, noise, rings, gap)
+        if share * room > _DENSEST:
+            raise ValueError(
+                f"{false_plots:g} false plots per scan on {rings * pulses_per_scan:g} cells lie so close that they "
+                f"merge; at most {_DENSEST / room * rings * pulses_per_scan:.3g} can be had"
+            )
+        noise = noise_probability(program, float(-lambertw(-share * room).real / room))
+    return noise
+
+
+def _merging_room(program: Program, noise: float, rings: int, gap: int) -> float:
+    """Positions, in the ring itself and in one neighbour, where another burst would merge with a given one."""
+    neighbour = 2.0 * (mean_noise_length(program, noise) + gap) + 1.0
+    return neighbour * (rings - 1) / rings + max(gap - program.ones + 1, 0)
 
 
 def mean_noise_length(program: Program, noise: float) -> float:
@@ -115,18 +145,3 @@ def mean_noise_length(program: Program, noise: float) -> float:
     """
     run = (1.0 - noise) ** program.zeros
     return (1.0 - run) / (noise * run)
-
-
-def _invert(rate: Callable[[float], float], wanted: float) -> float:
-    if not rate(_SMALLEST) < wanted < rate(_LARGEST):
-        raise ValueError(
-            f"a false-alarm rate of {wanted:g} is outside what p_N of {_SMALLEST:g} to {_LARGEST:g} gives, "
-            f"{rate(_SMALLEST):.3g} to {rate(_LARGEST):.3g}"
-        )
-    return float(
-        np.exp(
-            brentq(
-                lambda log: np.log(rate(np.exp(log)) / wanted), np.log(_SMALLEST), np.log(_LARGEST)
-            )
-        )
-    )

@@ -66,6 +66,13 @@ class ExtractorParameters(Parameters):
         low=1.5,
         high=100.0,
     )
+    merge_gap: float = parameter(
+        0.5,
+        "bursts in the same or adjacent range cells this near in azimuth, as a share of the pulses of a "
+        "point target's, make one plot",
+        low=0.0,
+        high=2.0,
+    )
     target_rings: int = parameter(
         6,
         "range cells that a target may fill; plots that fill more have quality 0",

@@ -17,21 +17,24 @@ from radar_common.tables import PLOT
 FloatArray = npt.NDArray[np.float64]
 
 _UNIFORM = 1.0 / np.sqrt(12.0)
+_BEST_RANGE = 0.1
 
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Where the cells lie.
+    """Where the cells lie and what it takes to be seen in one.
 
     Attributes:
         range_start: near edge of range cell 0, m.
         range_step: length of a range cell, m.
         azimuth_step: azimuth from pulse to pulse, rad.
+        threshold: on a cell's power over the mean noise power.
     """
 
     range_start: float
     range_step: float
     azimuth_step: float
+    threshold: float
 
 
 def form_plots(
@@ -86,7 +89,9 @@ def form_plots(
     plots["x"], plots["y"] = enu_from_polar(plots["range"], plots["azimuth"])
     plots["azimuth_std"] = grid.azimuth_step * np.sqrt(variance)
     plots["range_std"] = grid.range_step * np.where(
-        extended, rings * _UNIFORM, _range_error(rings, bursts["power"][strongest])
+        extended,
+        rings * _UNIFORM,
+        _range_error(rings, np.sqrt(grid.threshold) / amplitude[strongest]),
     )
     plots["amplitude"] = amplitude[strongest]
     plots["snr_db"] = 20.0 * np.log10(amplitude[strongest])
@@ -97,10 +102,12 @@ def form_plots(
     return plots
 
 
-def _range_error(rings: npt.NDArray[np.int64], power: npt.NDArray[np.float32]) -> FloatArray:
-    """Standard deviation of the range centroid in cells.
+def _range_error(rings: npt.NDArray[np.int64], reach: FloatArray) -> FloatArray:
+    """Standard deviation of the range centroid in cells, for a pulse as long as a cell and its matched filter.
 
-    One ring says no more than that the target lies in it. Two or more weigh the target's place between them, with an
-    error of the amplitudes' noise over the amplitude.
+    The echo falls off linearly over one cell to both sides. A target seen in one ring only is so near the ring's middle
+    that the neighbours stay under the threshold, `reach` = threshold over amplitude, half a cell at most. Between two
+    rings the amplitudes weigh its place. Agrees with simulation to a third of its value.
     """
-    return np.where(rings == 1, _UNIFORM, np.hypot(_UNIFORM / rings, 1.0 / np.sqrt(2.0 * power)))
+    nearness = np.minimum(reach, 0.5) / np.sqrt(3.0)
+    return np.maximum(np.where(rings == 1, nearness, nearness / 2.0), _BEST_RANGE)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bursts of adjacent range rings that overlap in azimuth belong to one target.
+"""Bursts of adjacent range rings at the same azimuth belong to one target.
 
 Kuzmin (1967, ch. 3) leaves every ring to itself, so that a pulse across the edge of two range quanta would give two
-plots. Here the overlaps make a graph, and each connected part of it is one plot.
+plots. Here nearness makes a graph, and each connected part of it is one plot.
 """
 
 from __future__ import annotations
@@ -37,23 +37,28 @@ class Groups:
 
 
 class RingMerger:
-    """Collects ended bursts until no burst that is still open can join them.
+    """Collects ended bursts until no other burst can join them.
 
-    A burst that starts later cannot overlap one that has ended, so a part of the graph without an open burst is
-    complete. A part that has grown over more than two longest bursts, as along a coast, is cut.
+    Two bursts of the same or of adjacent rings are connected if no more than a gap lies between the end of one and the
+    start of the other: a strong target's burst falls into pieces now and then, and a weak neighbour ring fires late. A
+    connected part is complete once none of its bursts is open and the gap after the last has passed. A part that has
+    grown over more than two longest bursts, as along a coast, is cut.
 
     Attributes:
         longest: limit of a burst's length, in pulses.
+        gap: pulses.
         waiting: bursts collected, dtype BURST.
     """
 
-    def __init__(self, longest: int) -> None:
+    def __init__(self, longest: int, gap: int) -> None:
         """Start with nothing collected.
 
         Args:
             longest: limit of a burst's length, in pulses.
+            gap: most pulses between the end of one burst and the start of another of the same target.
         """
         self.longest = longest
+        self.gap = gap
         self.waiting = np.zeros(0, BURST)
 
     def add(self, closed: npt.NDArray[np.void], going: npt.NDArray[np.void], now: int) -> Groups:
@@ -74,15 +79,14 @@ class RingMerger:
         order = np.lexsort((bursts["start"], bursts["ring"]))
         bursts, is_open = bursts[order], is_open[order]
         end = np.where(is_open, now, bursts["end"])
-        part = _connected(bursts["ring"], bursts["start"], end)
+        part = _connected(bursts["ring"], bursts["start"], end, self.gap)
         parts = int(part.max()) + 1
-        grows = np.bincount(part, is_open, parts) > 0
         begin = np.full(parts, now)
         np.minimum.at(begin, part, bursts["start"])
+        grows = np.bincount(part, is_open | (end + self.gap > now), parts) > 0
         grows &= now - begin <= _LONGEST_CHAIN * self.longest
         self.waiting = bursts[grows[part] & ~is_open]
-        done = ~grows[part] & ~is_open
-        return Groups(bursts[done], np.unique(part[done], return_inverse=True)[1].astype(np.int64))
+        return _groups(bursts, part, ~grows[part] & ~is_open)
 
     def finish(self) -> Groups:
         """Give what was collected, complete or not.
@@ -90,27 +94,43 @@ class RingMerger:
         Returns:
             The groups.
         """
-        return self.add(self.waiting[:0], self.waiting[:0], 0)
+        bursts, self.waiting = self.waiting, self.waiting[:0]
+        if not len(bursts):
+            return Groups(bursts, np.zeros(0, np.int64))
+        part = _connected(bursts["ring"], bursts["start"], bursts["end"], self.gap)
+        return _groups(bursts, part, np.ones(len(bursts), bool))
+
+
+def _groups(
+    bursts: npt.NDArray[np.void], part: npt.NDArray[np.integer], done: npt.NDArray[np.bool_]
+) -> Groups:
+    return Groups(bursts[done], np.unique(part[done], return_inverse=True)[1].astype(np.int64))
 
 
 def _connected(
-    ring: npt.NDArray[np.int32], start: npt.NDArray[np.int64], end: npt.NDArray[np.int64]
+    ring: npt.NDArray[np.int32],
+    start: npt.NDArray[np.int64],
+    end: npt.NDArray[np.int64],
+    gap: int,
 ) -> npt.NDArray[np.integer]:
-    """Number the connected parts of the overlap graph; bursts in order of ring and start.
+    """Number the connected parts of the graph; bursts in order of ring and start.
 
-    Bursts of one ring lie one behind the other, so those of the next ring that overlap a burst are a run of the list:
-    from the first that ends at its start or later, to the last that starts at its end or earlier.
+    Bursts of one ring lie one behind the other, so those of the next ring that are near a burst are a run of the list:
+    from the first that ends at its start or later, to the last that starts at its end or earlier, the gap allowed for.
     """
-    origin = int(start.min())
-    span = int(end.max()) - origin + 2
+    index = np.arange(len(ring))
+    origin = int(start.min()) - gap
+    span = int(end.max()) - origin + gap + 1
     starts = ring * np.int64(span) + (start - origin)
     ends = ring * np.int64(span) + (end - origin)
-    first = np.searchsorted(ends, starts + span, side="left")
-    stop = np.searchsorted(starts, ends + span, side="right")
+    first = np.searchsorted(ends, starts + (span - gap), side="left")
+    stop = np.searchsorted(starts, ends + (span + gap), side="right")
     count = np.maximum(stop - first, 0)
-    if not count.any():
-        return np.arange(len(ring))
-    one = np.repeat(np.arange(len(ring)), count)
-    other = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count - first, count)
+    follows = index[:-1][starts[1:] <= ends[:-1] + gap]
+    if not count.any() and not len(follows):
+        return index
+    one = np.concatenate([np.repeat(index, count), follows])
+    run = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count - first, count)
+    other = np.concatenate([run, follows + 1])
     graph = coo_array((np.ones(len(one), np.int8), (one, other)), (len(ring), len(ring)))
     return connected_components(graph, directed=False)[1]

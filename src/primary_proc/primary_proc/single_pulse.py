@@ -21,7 +21,7 @@ def threshold_for(noise_probability: npt.ArrayLike) -> FloatArray:
     Returns:
         x_0 in units of the noise's sigma, same shape.
     """
-    return np.sqrt(-2.0 * np.log(noise_probability))
+    return np.asarray(np.sqrt(-2.0 * np.log(noise_probability)))
 
 
 def steady_probability(threshold: npt.ArrayLike, amplitude: npt.ArrayLike) -> FloatArray:
@@ -36,7 +36,7 @@ def steady_probability(threshold: npt.ArrayLike, amplitude: npt.ArrayLike) -> Fl
     Returns:
         Probability, of the broadcast shape.
     """
-    return 1.0 - chndtr(np.square(threshold), 2.0, np.square(amplitude))
+    return np.asarray(1.0 - chndtr(np.square(threshold), 2.0, np.square(amplitude)))
 
 
 def fluctuating_probability(threshold: npt.ArrayLike, amplitude: npt.ArrayLike) -> FloatArray:
@@ -51,4 +51,4 @@ def fluctuating_probability(threshold: npt.ArrayLike, amplitude: npt.ArrayLike) 
     Returns:
         Probability, of the broadcast shape.
     """
-    return np.exp(-np.square(threshold) / (2.0 * (1.0 + np.square(amplitude))))
+    return np.asarray(np.exp(-np.square(threshold) / (2.0 * (1.0 + np.square(amplitude)))))
