@@ -51,9 +51,9 @@ class RadarSimulatorNode(Node):
             ParameterError: the parameters or the scenario are impossible.
         """
         super().__init__(NODE_NAME, **node_options)
-        self._parameters = NodeParameters(self, SimulatorParameters).values
+        self._settings = NodeParameters(self, SimulatorParameters).values
         self._on_finished = on_finished or self.context.try_shutdown
-        self._simulator = Simulator.from_parameters(self._parameters)
+        self._simulator = Simulator.from_parameters(self._settings)
         self._upcoming: Sector | None = None
         self._health = Health()
         self._sweeps = TablePublisher(self, SWEEPS_TOPIC, qos.SWEEPS_OUT)
@@ -74,10 +74,10 @@ class RadarSimulatorNode(Node):
         self._site.publish(TFMessage(transforms=[transform]))
 
     def _tick_period(self) -> float:
-        if not self._parameters.rate:
+        if not self._settings.rate:
             return _SHORTEST_TICK
-        sector = self._simulator.radar.scan_period / self._parameters.sectors
-        period = sector / self._parameters.rate / _TICKS_PER_SECTOR
+        sector = self._simulator.radar.scan_period / self._settings.sectors
+        period = sector / self._settings.rate / _TICKS_PER_SECTOR
         return min(max(period, _SHORTEST_TICK), _LONGEST_TICK)
 
     def _tick(self) -> None:
@@ -97,8 +97,8 @@ class RadarSimulatorNode(Node):
         # Simulated time stands at zero until the first message on /clock.
         if (
             now == 0
-            or self._sweeps.subscriptions < self._parameters.wait_for_subscribers
-            or self._truth.subscriptions < self._parameters.wait_for_truth_subscribers
+            or self._sweeps.subscriptions < self._settings.wait_for_subscribers
+            or self._truth.subscriptions < self._settings.wait_for_truth_subscribers
         ):
             return False
         self._simulator.start = now
@@ -111,10 +111,10 @@ class RadarSimulatorNode(Node):
         return True
 
     def _is_due(self) -> bool:
-        if not self._parameters.rate:
+        if not self._settings.rate:
             return True
         elapsed = (self.get_clock().now().nanoseconds - self._simulator.start) / 1e9
-        return elapsed * self._parameters.rate >= self._simulator.elapsed
+        return elapsed * self._settings.rate >= self._simulator.elapsed
 
     def _publish(self) -> None:
         assert self._upcoming is not None
@@ -125,15 +125,15 @@ class RadarSimulatorNode(Node):
         self._health.count("pulses", len(sweeps.rows))
         self._health.count("targets passed", len(truth.rows))
         elapsed = (self.get_clock().now().nanoseconds - self._simulator.start) / 1e9
-        if elapsed > 0.0 and self._parameters.rate:
+        if elapsed > 0.0 and self._settings.rate:
             observed = self._simulator.elapsed / elapsed
-            self._health.watch("seconds simulated in a second", self._parameters.rate, observed)
+            self._health.watch("seconds simulated in a second", self._settings.rate, observed)
 
     def _finish(self) -> None:
         self._timer.cancel()
         delivered = [p.wait_until_received(_DELIVERY_TIMEOUT) for p in (self._sweeps, self._truth)]
         self.get_logger().info(
-            f"{self._parameters.scans} scans published"
+            f"{self._settings.scans} scans published"
             + ("" if all(delivered) else "; a subscription has not received all of them")
         )
         self._on_finished()
