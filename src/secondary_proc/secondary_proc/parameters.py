@@ -65,18 +65,18 @@ class TrackerParameters(Parameters):
         2, "scans in a row without a plot that end a tentative track", low=1, high=20
     )
     confirmed_misses: int = parameter(
-        5, "scans in a row without a plot that end a confirmed track", low=1, high=50
+        6, "scans in a row without a plot that end a confirmed track", low=1, high=50
     )
     smoother: str = parameter("kalman", "filter of position and velocity", choices=tuple(SMOOTHERS))
     acceleration: float = parameter(
-        0.5,
+        0.3,
         "standard deviation of the accelerations of a target between manoeuvres",
         unit="m/s^2",
         low=0.0,
         high=100.0,
     )
     manoeuvre_acceleration: float = parameter(
-        4.0,
+        8.0,
         "standard deviation of the accelerations in a manoeuvre; gates stay open for it",
         unit="m/s^2",
         low=0.0,

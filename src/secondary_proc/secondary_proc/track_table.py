@@ -9,6 +9,7 @@ from radar_common.frames import polar_from_enu
 from radar_common.tables import TRACK
 
 from secondary_proc.motion import FloatArray, predict_covariance, predict_state
+from secondary_proc.plots import Plots
 from secondary_proc.track_store import TrackStore
 
 
@@ -47,4 +48,30 @@ def rows(
     out["age"] = time - store["born"][tracks]
     for name in ("id", "status", "hits", "misses", "score"):
         out[name] = store[name][tracks]
+    return out
+
+
+def first_rows(second: npt.NDArray[np.void], first: Plots) -> npt.NDArray[np.void]:
+    """Write the first plot of tracks that their second plot has just opened.
+
+    Args:
+        second: rows of the tracks at their second plot, shape (n,).
+        first: their first plots, n of them.
+
+    Returns:
+        Rows of dtype TRACK, shape (n,), as `rows` writes them.
+    """
+    out = second.copy()
+    out["x"], out["y"] = first.position[:, 0], first.position[:, 1]
+    out["time_offset"], out["plot_range"], out["plot_azimuth"] = (
+        first.time,
+        first.range,
+        first.azimuth,
+    )
+    seconds = (second["time_offset"] - first.time)[:, None, None]
+    covariance = second["covariance"].reshape(-1, 4, 4).copy()
+    covariance[:, :2, :2] = first.covariance
+    covariance[:, :2, 2:] = covariance[:, 2:, :2] = -first.covariance / seconds
+    out["covariance"] = covariance.reshape(-1, 16)
+    out["hits"], out["misses"], out["age"], out["score"] = 1, 0, 0.0, 0.0
     return out

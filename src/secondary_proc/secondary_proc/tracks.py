@@ -170,7 +170,7 @@ class Tracks:
             threshold: score of confirmation.
 
         Returns:
-            Rows of the new tracks.
+            Two rows of each new track, one for each of its plots.
         """
         room = max(self._parameters.maximum_tracks - len(self._store), 0)
         if len(first) > room:
@@ -210,7 +210,8 @@ class Tracks:
         )
         self._next_id += count
         self._health.count("tracks opened", count)
-        return self._after_plot(tracks, threshold)
+        opened = track_table.first_rows(self._rows(tracks), first)
+        return np.concatenate([opened, self._after_plot(tracks, threshold)])
 
     def miss(self, until: float) -> list[Rows]:
         """Count a miss for every track that the beam has passed without a plot.

@@ -19,7 +19,8 @@ from secondary_proc.motion import (
 )
 from secondary_proc.smoothing.interface import Measured, Smoothed, joseph_update
 
-MANOEUVRE_THRESHOLD = 6.0
+MANOEUVRE_THRESHOLD = 12.0
+"""Normalised innovation squared that quiet flight exceeds once in 400 plots (chi-square, two degrees of freedom)."""
 _FORGETTING = 0.5
 
 
