@@ -28,7 +28,7 @@ from radar_sim.simulator import Sector, Simulator
 
 NODE_NAME = "radar_simulator"
 
-_TICKS_PER_SECTOR = 4.0
+_TICKS_PER_SECTOR = 16.0
 _SHORTEST_TICK, _LONGEST_TICK = 0.001, 0.05
 # The rest of the node must have its turn also where the machine cannot keep up with the rate.
 _SECTORS_PER_TICK = 4

@@ -23,7 +23,7 @@ def record(
     bag: str | Path,
     *,
     storage: str = "mcap",
-    report: Callable[[str], None] = lambda _: None,
+    report: Callable[[str], object] = lambda _: None,
 ) -> None:
     """Write sweeps and truth of a whole simulation; the same parameters give the same bag.
 
