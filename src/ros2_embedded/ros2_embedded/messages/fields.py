@@ -223,9 +223,9 @@ def _number_sequence(
 ) -> Field:
     typecode = TYPECODES[base]
 
-    def from_wire(numbers: np.ndarray) -> array.array:
+    def from_wire(numbers: np.ndarray) -> array.array[Any]:
         owned = array.array(typecode)
-        owned.frombytes(numbers.data)
+        owned.frombytes(numbers.view(np.uint8).data)
         return owned
 
     def assign(value: Any, checked: bool) -> object:
