@@ -157,7 +157,8 @@ def main(args: Sequence[str] | None = None) -> int:
         "--bag", help="write sweeps and truth into this new bag instead of publishing"
     )
     parser.add_argument("--storage", choices=("mcap", "sqlite3"), default="mcap", help="of the bag")
-    options = parser.parse_args(remove_ros_args(args=given))
+    # rcl takes no empty list; the program's name makes sure of it.
+    options = parser.parse_args(remove_ros_args(args=[NODE_NAME, *given])[1:])
     if options.bag is None:
         return run(RadarSimulatorNode, args)
     rclpy.init(args=given)
