@@ -33,7 +33,7 @@ def noise_states(program: Program, noise: float, capacity: int = CAPACITY) -> Fl
         ValueError: the book has no closed form for the program.
     """
     p, q, k, m = noise, 1.0 - noise, program.zeros, program.window
-    stages: FloatArray
+    stages: npt.NDArray[np.floating]
     if program == Program(3, 4, 2):
         stages = _three_of_four(p, q)
         sum_of_counts = 1.0 + (1.0 - (1.0 - q**2) ** capacity) / q**2

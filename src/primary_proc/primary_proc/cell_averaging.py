@@ -35,9 +35,10 @@ class CellAveraging(Normaliser):
         Raises:
             ValueError: some cell would have no reference cell at all.
         """
-        if cells < guard + 2:
+        self._count = _window_population(cells, reference, guard)
+        if self._count.min() < 1:
             raise ValueError(
-                f"{cells} range cells leave no reference cell beside a guard of {guard}"
+                f"{cells} range cells leave some cell without a reference cell beside a guard of {guard}"
             )
         self._cells, self._reference, self._guard = cells, reference, guard
         self._pad = guard + reference
@@ -45,7 +46,6 @@ class CellAveraging(Normaliser):
         self._rows = max(1, _BLOCK_BYTES // (4 * width))
         self._power = np.zeros((self._rows, width), np.float32)
         self._sums, self._additions = self._plan()
-        self._count = _window_population(cells, reference, guard)
         self.noise_scale = self._count.astype(float)
 
     def ratios(self, video: npt.NDArray, out: npt.NDArray[np.float32]) -> int:
