@@ -137,7 +137,7 @@ def test_cells_without_a_target_hold_only_noise():
 @pytest.mark.parametrize(("sample", "largest"), [("uint8", 255), ("uint16", 65535)])
 def test_integer_video_is_the_rounded_float_video_and_saturates(sample, largest):
     targets = [target("slow", 36.0)]
-    analogue, digital = video(targets), video(targets, sample=sample)
+    analogue, digital = (video(targets, scans=100, sample=s) for s in ("float32", sample))
     assert digital.dtype == sample
     codes = analogue / (NOISE_LEVEL * RADAR.full_scale) * largest
     error = digital - np.minimum(codes, largest)
