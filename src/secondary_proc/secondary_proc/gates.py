@@ -11,7 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from secondary_proc.motion import inverse_2x2, predict_position_covariance
+from secondary_proc.motion import (
+    inverse_2x2,
+    predict_position_covariance,
+    quadratic_form,
+    trace,
+)
 from secondary_proc.neighbours import neighbour_pairs
 from secondary_proc.plots import Plots
 from secondary_proc.track_store import TrackStore
@@ -63,13 +68,14 @@ def gate(
     Returns:
         Pairs of track and plot.
     """
+    if not len(tracks):
+        return Gated(tracks, tracks, np.zeros(0), np.zeros(0), 0)
     begin, end = plots.time[0], plots.time[-1]
     state, covariance = store["state"][tracks], store["covariance"][tracks]
     seconds = 0.5 * (begin + end) - store["time"][tracks]
     centre = state[:, :2] + state[:, 2:] * seconds[:, None]
-    density = np.full(len(tracks), noise_density)
-    spread = predict_position_covariance(covariance, seconds, density).trace(axis1=1, axis2=2)
-    spread += plots.covariance.trace(axis1=1, axis2=2).max()
+    spread = trace(predict_position_covariance(covariance, seconds, noise_density))
+    spread += trace(plots.covariance).max()
     travel = np.hypot(state[:, 2], state[:, 3]) * 0.5 * (end - begin)
     # The predicted error grows over half a slice; a tenth covers it, as slices are short against the period.
     radius = float((1.1 * sigmas * np.sqrt(spread) + travel).max(initial=0.0))
@@ -78,10 +84,10 @@ def gate(
     apart = seconds >= shortest
     row, plot, seconds = row[apart], plot[apart], seconds[apart]
     difference = plots.position[plot] - state[row, :2] - state[row, 2:] * seconds[:, None]
-    expected = predict_position_covariance(covariance[row], seconds, density[row])
+    expected = predict_position_covariance(covariance[row], seconds, noise_density)
     expected += plots.covariance[plot]
     inverse, determinant = inverse_2x2(expected)
-    distance_squared = np.einsum("ni,nij,nj->n", difference, inverse, difference)
+    distance_squared = quadratic_form(difference, inverse)
     inside = distance_squared <= sigmas**2
     return Gated(
         tracks[row[inside]], plot[inside], distance_squared[inside], determinant[inside], skipped

@@ -29,14 +29,14 @@ def predict_state(state: FloatArray, seconds: FloatArray) -> FloatArray:
 
 
 def predict_covariance(
-    covariance: FloatArray, seconds: FloatArray, noise_density: FloatArray
+    covariance: FloatArray, seconds: FloatArray, noise_density: FloatArray | float
 ) -> FloatArray:
     """Covariance of predicted states.
 
     Args:
         covariance: of (x, y, vx, vy), shape (n, 4, 4).
         seconds: time to predict over, shape (n,).
-        noise_density: power spectral density of the acceleration per axis, m^2/s^3, shape (n,).
+        noise_density: power spectral density of the acceleration per axis, m^2/s^3, one for all or shape (n,).
 
     Returns:
         Covariances, shape (n, 4, 4).
@@ -58,14 +58,14 @@ def predict_covariance(
 
 
 def predict_position_covariance(
-    covariance: FloatArray, seconds: FloatArray, noise_density: FloatArray
+    covariance: FloatArray, seconds: FloatArray, noise_density: FloatArray | float
 ) -> FloatArray:
     """Only the position's part of `predict_covariance`, which is all that a gate needs.
 
     Args:
         covariance: of (x, y, vx, vy), shape (n, 4, 4).
         seconds: time to predict over, shape (n,).
-        noise_density: power spectral density of the acceleration per axis, m^2/s^3, shape (n,).
+        noise_density: power spectral density of the acceleration per axis, m^2/s^3, one for all or shape (n,).
 
     Returns:
         Covariances of (x, y), shape (n, 2, 2).
@@ -87,7 +87,7 @@ def two_point_state(
     second: FloatArray,
     second_covariance: FloatArray,
     seconds: FloatArray,
-    noise_density: FloatArray,
+    noise_density: FloatArray | float,
 ) -> tuple[FloatArray, FloatArray]:
     """State at the second of two plots: its position, and the velocity between both.
 
@@ -99,7 +99,7 @@ def two_point_state(
         second: positions of the later plots, metres, shape (n, 2).
         second_covariance: of their errors, shape (n, 2, 2).
         seconds: time between them, positive, shape (n,).
-        noise_density: power spectral density of the acceleration per axis, m^2/s^3, shape (n,).
+        noise_density: power spectral density of the acceleration per axis, m^2/s^3, one for all or shape (n,).
 
     Returns:
         (state, covariance): shapes (n, 4) and (n, 4, 4).
@@ -125,10 +125,36 @@ def inverse_2x2(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:
     Returns:
         (inverse, determinant): shapes (n, 2, 2) and (n,).
     """
-    determinant = matrices[:, 0, 0] * matrices[:, 1, 1] - matrices[:, 0, 1] ** 2
+    xx, yy, xy = matrices[:, 0, 0], matrices[:, 1, 1], matrices[:, 0, 1]
+    determinant = xx * yy - xy**2
     inverse = np.empty_like(matrices)
-    inverse[:, 0, 0] = matrices[:, 1, 1]
-    inverse[:, 1, 1] = matrices[:, 0, 0]
-    inverse[:, 0, 1] = inverse[:, 1, 0] = -matrices[:, 0, 1]
-    inverse /= determinant[:, None, None]
+    inverse[:, 0, 0] = yy / determinant
+    inverse[:, 1, 1] = xx / determinant
+    inverse[:, 0, 1] = inverse[:, 1, 0] = -xy / determinant
     return inverse, determinant
+
+
+def quadratic_form(vectors: FloatArray, matrices: FloatArray) -> FloatArray:
+    """V' M v of symmetric 2 x 2 matrices.
+
+    Args:
+        vectors: shape (n, 2).
+        matrices: shape (n, 2, 2).
+
+    Returns:
+        Shape (n,).
+    """
+    x, y = vectors[:, 0], vectors[:, 1]
+    return x * x * matrices[:, 0, 0] + 2.0 * x * y * matrices[:, 0, 1] + y * y * matrices[:, 1, 1]
+
+
+def trace(matrices: FloatArray) -> FloatArray:
+    """Trace of 2 x 2 matrices.
+
+    Args:
+        matrices: shape (n, 2, 2).
+
+    Returns:
+        Shape (n,).
+    """
+    return matrices[:, 0, 0] + matrices[:, 1, 1]

@@ -6,7 +6,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from radar_common.parameters import ParameterError, Parameters, parameter
-
 from secondary_proc.association import ASSOCIATIONS
 from secondary_proc.initiation import INITIATIONS
 from secondary_proc.smoothing import SMOOTHERS

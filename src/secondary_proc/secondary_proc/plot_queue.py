@@ -7,18 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
-from radar_common.frames import wrap_two_pi
+
 from radar_common.health import Health
 from radar_common.tables import NANOSECONDS, Table
-
-from secondary_proc.plots import QUEUED
+from secondary_proc.plot_check import check
+from secondary_proc.plots import AZIMUTH, QUEUE_COLUMNS, RANGE, STRENGTH, TIME, FloatArray
 
 if TYPE_CHECKING:
     from secondary_proc.parameters import TrackerParameters
-
-LONGEST_OFFSET = 60.0
-LARGEST_RANGE_STD = 10e3
-LARGEST_AZIMUTH_STD = 0.5
 
 
 class PlotQueue:
@@ -38,8 +34,8 @@ class PlotQueue:
         self._epoch = 0
         self._begun = False
         self._last_stamp = 0
-        self._waiting = np.zeros(0, QUEUED)
-        self._handed_out = np.zeros(0, QUEUED)
+        self._waiting = np.zeros((0, QUEUE_COLUMNS))
+        self._handed_out = np.zeros((0, QUEUE_COLUMNS))
         self._ripe_until = -np.inf
         self.now = -np.inf
         """Latest stamp in seconds since the first message: no plot much older than this will be accepted."""
@@ -62,9 +58,7 @@ class PlotQueue:
         """Latest stamp in nanoseconds, 0 before the first message."""
         return self._last_stamp
 
-    def put(
-        self, table: Table, parameters: TrackerParameters, period: float
-    ) -> npt.NDArray[np.void]:
+    def put(self, table: Table, parameters: TrackerParameters, period: float) -> FloatArray:
         """Take in the plots of a message.
 
         Args:
@@ -73,33 +67,35 @@ class PlotQueue:
             period: of the antenna, seconds.
 
         Returns:
-            The plots accepted, dtype QUEUED, in order of time.
+            The plots accepted, QUEUE_COLUMNS each, in order of time.
         """
         stamp = self.seconds(table.stamp)
-        before = self._waiting["time"].max(initial=-np.inf)
+        before = self._waiting[:, TIME].max(initial=-np.inf)
         if stamp >= self.now:
             self.now, self._last_stamp = stamp, table.stamp
         self._ripe_until = max(self._ripe_until, self.now, before)
         if not len(table.rows):
             return self._waiting[:0]
-        rows = self._convert(table, stamp, parameters)
-        late = rows["time"] < self.now - period / 4
-        self._health.drop("plots older than the tracks", np.count_nonzero(late))
-        rows = self._without_duplicates(rows[~late])
+        rows = check(table.rows, stamp, parameters, self._health)
+        late = rows[:, TIME] < self.now - period / 4
+        self._health.drop("plots older than the tracks", int(np.count_nonzero(late)))
+        rows = self._without_duplicates(rows[~late] if late.any() else rows)
         if not len(rows):
             return rows
-        latest = rows["time"].max()
-        span = latest - min(rows["time"].min(), self.now)
+        latest = rows[:, TIME].max()
+        span = latest - min(rows[:, TIME].min(), self.now)
         rows = self._strongest(rows, parameters.maximum_plots * max(1.0, span / period))
-        rows = rows[np.argsort(rows["time"], kind="stable")]
+        rows = rows[np.argsort(rows[:, TIME], kind="stable")]
         waiting = np.concatenate([self._waiting, rows])
-        self._waiting = waiting[np.argsort(waiting["time"], kind="stable")]
+        if before > rows[0, TIME]:
+            waiting = waiting[np.argsort(waiting[:, TIME], kind="stable")]
+        self._waiting = waiting
         self._ripe_until = max(self._ripe_until, latest - period / 32)
         return rows
 
     def take(
         self, longest: float, ahead: float, *, everything: bool = False
-    ) -> tuple[npt.NDArray[np.void], int] | None:
+    ) -> tuple[FloatArray, int] | None:
         """Hand out the next slice of ripe plots, followed by plots that might compete with them.
 
         Args:
@@ -108,10 +104,10 @@ class PlotQueue:
             everything: whether all plots count as ripe, because no message will follow.
 
         Returns:
-            (plots, ripe): dtype QUEUED in order of time, of which the first `ripe` are handed out and the others
+            (plots, ripe): QUEUE_COLUMNS each in order of time, of which the first `ripe` are handed out and the others
             stay in the queue until `take_also` removes them; None if nothing is ripe.
         """
-        times = self._waiting["time"]
+        times = self._waiting[:, TIME]
         if not len(times) or (times[0] > self._ripe_until and not everything):
             return None
         end = times[0] + longest
@@ -120,7 +116,7 @@ class PlotQueue:
         ripe, seen = np.searchsorted(times, [end, end + ahead], side="right")
         taken = self._waiting[:seen]
         self._waiting = self._waiting[ripe:]
-        recent = self._handed_out["time"] > self.now - 2 * longest
+        recent = self._handed_out[:, TIME] > self.now - 2 * longest
         self._handed_out = np.concatenate([self._handed_out[recent], taken[:ripe]])
         return taken, int(ripe)
 
@@ -130,59 +126,26 @@ class PlotQueue:
         Args:
             which: indices into the queue, that is, into the plots behind the ripe ones of the last `take`.
         """
-        self._handed_out = np.concatenate([self._handed_out, self._waiting[which]])
-        self._waiting = np.delete(self._waiting, which)
+        if len(which):
+            self._handed_out = np.concatenate([self._handed_out, self._waiting[which]])
+            self._waiting = np.delete(self._waiting, which, axis=0)
 
-    def _convert(
-        self, table: Table, stamp: float, parameters: TrackerParameters
-    ) -> npt.NDArray[np.void]:
-        source = table.rows
-        rows = np.zeros(len(source), QUEUED)
-        rows["time"] = stamp + source["time_offset"]
-        rows["range"] = source["range"]
-        for name, default, smallest in (
-            ("range_std", parameters.default_range_std, parameters.minimum_range_std),
-            ("azimuth_std", parameters.default_azimuth_std, parameters.minimum_azimuth_std),
-        ):
-            told = source[name].astype(float)
-            rows[name] = np.maximum(np.where(told > 0.0, told, default), smallest)
-        rows["strength"] = np.nan_to_num(source["snr_db"], nan=-np.inf)
-        finite = np.isfinite(rows["range"]) & np.isfinite(source["azimuth"])
-        azimuth = np.where(finite, source["azimuth"], 0.0)
-        rows["azimuth"] = wrap_two_pi(azimuth)
-        remaining = np.ones(len(rows), bool)
-        for reason, bad in (
-            ("plots that are not finite", ~finite | ~np.isfinite(rows["time"])),
-            ("plots at no positive range", ~(rows["range"] > 0.0)),
-            ("plots beyond the maximum range", rows["range"] > parameters.maximum_range),
-            ("plots far from their message's time", ~(np.abs(source["time_offset"]) <= LONGEST_OFFSET)),
-            (
-                "plots with huge errors",
-                (rows["range_std"] > LARGEST_RANGE_STD)
-                | (rows["azimuth_std"] > LARGEST_AZIMUTH_STD),
-            ),
-        ):  # fmt: skip
-            self._health.drop(reason, np.count_nonzero(bad & remaining))
-            remaining &= ~bad
-        return rows[remaining]
-
-    def _without_duplicates(self, rows: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
+    def _without_duplicates(self, rows: FloatArray) -> FloatArray:
         known = np.concatenate([self._handed_out, self._waiting, rows])
-        order = np.lexsort((known["range"], known["azimuth"], known["time"]))
+        times = np.sort(known[:, TIME])
+        if not (times[1:] == times[:-1]).any():
+            return rows
+        order = np.lexsort((known[:, RANGE], known[:, AZIMUTH], known[:, TIME]))
         same = np.zeros(len(known), bool)
-        ordered = known[order]
+        ordered = known[order][:, [TIME, RANGE, AZIMUTH]]
         # lexsort is stable, so that of equal plots the one known first stays first.
-        same[order[1:]] = (
-            (ordered["time"][1:] == ordered["time"][:-1])
-            & (ordered["azimuth"][1:] == ordered["azimuth"][:-1])
-            & (ordered["range"][1:] == ordered["range"][:-1])
-        )
+        same[order[1:]] = (ordered[1:] == ordered[:-1]).all(axis=1)
         fresh = ~same[len(known) - len(rows) :]
-        self._health.drop("duplicate plots", len(rows) - np.count_nonzero(fresh))
+        self._health.drop("duplicate plots", len(rows) - int(np.count_nonzero(fresh)))
         return rows[fresh]
 
-    def _strongest(self, rows: npt.NDArray[np.void], limit: float) -> npt.NDArray[np.void]:
+    def _strongest(self, rows: FloatArray, limit: float) -> FloatArray:
         if len(rows) <= limit:
             return rows
         self._health.drop("plots over the limit of a scan", len(rows) - int(limit))
-        return rows[np.argsort(-rows["strength"], kind="stable")[: int(limit)]]
+        return rows[np.argsort(-rows[:, STRENGTH], kind="stable")[: int(limit)]]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
+
 from radar_common.frames import TWO_PI, wrap_pi
 
 FloatArray = npt.NDArray[np.float64]
@@ -23,6 +24,7 @@ _FINEST_GRID = 4096
 _LONGEST_SILENCE = 20.0  # periods
 _VERDICT_PLOTS = 12
 _UNKNOWN = 4.0  # s
+_LONGEST_DOUBT = 8.0  # periods
 
 
 class Rotation:
@@ -43,6 +45,7 @@ class Rotation:
         self._phase = 0.0
         self._origin = 0.0
         self._news = 0
+        self._lost = -np.inf
         self.locked = False
         """Whether the plots at present fit the estimate."""
 
@@ -60,6 +63,20 @@ class Rotation:
     def sense(self) -> float:
         """+1 where azimuths increase with time, -1 where they decrease, 0 while unknown."""
         return float(np.sign(self._rate))
+
+    def tells_passages(self, now: float) -> bool:
+        """Whether it can be said that the beam has passed a place.
+
+        Not while a change of the period is being measured; but doubt does not last, lest tracks live on for ever.
+
+        Args:
+            now: seconds.
+
+        Returns:
+            True if a track that should have been passed has been passed.
+        """
+        in_doubt = not self.locked and now - self._lost < _LONGEST_DOUBT * self.period
+        return self.known and not in_doubt
 
     def observe(self, times: FloatArray, azimuths: FloatArray) -> None:
         """Take plots into account.
@@ -89,6 +106,7 @@ class Rotation:
         self._good = np.concatenate([self._good, good])[-_VERDICT_PLOTS:]
         if len(self._good) == _VERDICT_PLOTS and np.count_nonzero(self._good) < _VERDICT_PLOTS / 2:
             self._restart(_VERDICT_PLOTS)
+            self._lost = float(times[-1])
 
     def _restart(self, keep: int) -> None:
         self.locked = False

@@ -8,9 +8,9 @@ neither the wrap of the azimuth nor a fast crossing target is counted twice.
 from __future__ import annotations
 
 import numpy as np
-from radar_common.frames import TWO_PI, wrap_pi
 
-from secondary_proc.motion import FloatArray, predict_position_covariance
+from radar_common.frames import TWO_PI, wrap_pi
+from secondary_proc.motion import FloatArray, predict_position_covariance, trace
 
 _LEAST_MARGIN = 0.03
 _MOST_MARGIN = 0.25
@@ -46,9 +46,7 @@ def passage(
     later = last + state[:, 2:] * period
     turn = wrap_pi(np.arctan2(later[:, 0], later[:, 1]) - np.arctan2(last[:, 0], last[:, 1]))
     following = crossing + period * (1.0 + sense * turn / TWO_PI)
-    spread = predict_position_covariance(
-        covariance, following - time, np.full(len(state), noise_density)
-    ).trace(axis1=1, axis2=2)
+    spread = trace(predict_position_covariance(covariance, following - time, noise_density))
     distance = np.maximum(np.hypot(later[:, 0], later[:, 1]), 1.0)
     width = sigmas * np.sqrt(spread) / distance / TWO_PI
     return following, period * np.minimum(_LEAST_MARGIN + width, _MOST_MARGIN)

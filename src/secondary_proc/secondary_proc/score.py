@@ -35,7 +35,10 @@ def hit(
 
 
 def second_plot(
-    detection_probability: float, area: FloatArray, density: FloatArray, skipped: npt.ArrayLike
+    detection_probability: float,
+    area: FloatArray,
+    density: FloatArray,
+    skipped: npt.NDArray[np.integer],
 ) -> FloatArray:
     """Score of a pair of plots, the second anywhere in the annulus around the first.
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from secondary_proc.motion import quadratic_form, trace
 from secondary_proc.neighbours import neighbour_pairs
 from secondary_proc.plots import Plots
 
@@ -114,10 +115,7 @@ class Starts:
         ripe = np.flatnonzero(first.time <= plots.time[-1] - period / 2)
         if not len(ripe):
             return Pairs(none, none, none, np.zeros(0), 0)
-        widest = np.sqrt(
-            plots.covariance.trace(axis1=1, axis2=2).max()
-            + first.covariance[ripe].trace(axis1=1, axis2=2).max()
-        )
+        widest = np.sqrt(trace(plots.covariance).max() + trace(first.covariance[ripe]).max())
         longest = min(plots.time[-1] - first.time[ripe].min(), (annulus.longest_gap + 0.5) * period)
         radius = annulus.maximum_speed * longest + annulus.sigmas * widest
         plot, start, skipped = neighbour_pairs(
@@ -133,7 +131,7 @@ class Starts:
         distance = np.hypot(shift[:, 0], shift[:, 1])
         direction = shift / np.maximum(distance, 1e-9)[:, None]
         error = plots.covariance[plot] + first.covariance[start]
-        variance = np.einsum("ni,nij,nj->n", direction, error, direction)
+        variance = quadratic_form(direction, error)
         slack = annulus.sigmas * np.sqrt(np.maximum(variance, 0.0))
         outer = annulus.maximum_speed * seconds + slack
         inner = np.maximum(annulus.minimum_speed * seconds - slack, 0.0)

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
+
 from radar_common.frames import polar_from_enu
 from radar_common.tables import TRACK
-
 from secondary_proc.motion import FloatArray, predict_covariance, predict_state
 from secondary_proc.plots import Plots
 from secondary_proc.track_store import TrackStore
@@ -38,7 +38,7 @@ def rows(
         out["plot_range"] = store["plot_range"][tracks]
         out["plot_azimuth"] = store["plot_azimuth"][tracks]
     else:
-        covariance = predict_covariance(covariance, at - time, np.full(len(at), noise_density))
+        covariance = predict_covariance(covariance, at - time, noise_density)
         state, time = predict_state(state, at - time), at
     for column, name in enumerate(("x", "y", "vx", "vy")):
         out[name] = state[:, column]

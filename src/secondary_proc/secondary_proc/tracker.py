@@ -5,15 +5,16 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
+
 from radar_common.health import Health
 from radar_common.tables import PLOT, SITE_FRAME, TRACK, Table
-
 from secondary_proc import score
 from secondary_proc.association import ASSOCIATIONS, GateGraph
 from secondary_proc.clutter import FalsePlotDensity
+from secondary_proc.gates import Gated
 from secondary_proc.parameters import TrackerParameters
 from secondary_proc.plot_queue import PlotQueue
-from secondary_proc.plots import Plots
+from secondary_proc.plots import AZIMUTH, TIME, FloatArray, Plots
 from secondary_proc.rotation import Rotation
 from secondary_proc.starts import Annulus, Starts
 from secondary_proc.tracks import Tracks
@@ -54,6 +55,11 @@ class Tracker:
         self.parameters = parameters
         self._tracks.reconfigure(parameters, self._rotation)
 
+    @property
+    def period(self) -> float:
+        """Seconds a turn of the antenna, as estimated at present."""
+        return self._tracks.period
+
     def process(self, plots: Table) -> Table:
         """Take in one message.
 
@@ -79,7 +85,7 @@ class Tracker:
         self._clutter.forget(elapsed / self._rotation.period)
         accepted = self._queue.put(plots, self.parameters, self._rotation.period)
         self.health.count("plots in", len(accepted))
-        self._rotation.observe(accepted["time"], accepted["azimuth"])
+        self._rotation.observe(accepted[:, TIME], accepted[:, AZIMUTH])
         if abs(self._rotation.period / self._tracks.period - 1.0) > _CHANGE:
             self._tracks.reconfigure(self.parameters, self._rotation)
         self._drain(out)
@@ -109,45 +115,54 @@ class Tracker:
             )
         ) is not None:
             rows, ripe = taken
-            self._miss(min(rows["time"][0], self._queue.now), out)
+            self._miss(min(rows[0, TIME], self._queue.now), out)
             self._work(Plots.from_queue(rows), ripe, out)
         self._miss(self._queue.now, out)
 
     def _miss(self, until: float, out: list[Rows]) -> None:
-        # A passage is only known to be over while the antenna's rotation is.
-        if self._rotation.known:
+        if self._rotation.tells_passages(self._queue.now):
             out.extend(self._tracks.miss(until))
 
     def _work(self, plots: Plots, ripe: int, out: list[Rows]) -> None:
         gated = self._tracks.gate(plots)
-        density = self._clutter.per_area(plots.range)
-        gain = score.hit(
-            self.parameters.detection_probability,
-            gated.distance_squared,
-            gated.determinant,
-            density[gated.plot],
-        )
-        confirmed = self._tracks.is_confirmed(gated.track)
-        weight = np.maximum(gain - score.miss(self.parameters.detection_probability), _LEAST_GAIN)
-        associate = ASSOCIATIONS[self.parameters.association]
-        edges = associate(GateGraph(gated.track, gated.plot, weight + _CONFIRMED_FIRST * confirmed))
-        # A track that only plots still to come can interest waits for their competitors.
-        urgent = np.isin(gated.track[edges], gated.track[gated.plot < ripe])
-        edges = edges[urgent]
-        plot = gated.plot[edges]
-        now = plot < ripe
         unclaimed = np.ones(ripe, bool)
-        unclaimed[plot[now & confirmed[edges]]] = False
-        self._clutter.observe(plots.range[:ripe][unclaimed])
-        unclaimed[plot[now]] = False
-        if len(edges):
+        untracked = np.ones(ripe, bool)
+        if len(gated.track):
+            gain = self._gain(gated, plots)
+            confirmed = self._tracks.is_confirmed(gated.track)
+            edges = self._choose(gated, gain, confirmed, ripe)
+            plot = gated.plot[edges]
+            now = plot < ripe
+            unclaimed[plot[now]] = False
+            untracked[plot[now & confirmed[edges]]] = False
             out.append(
                 self._tracks.update(gated.track[edges], plots[plot], gain[edges], self._threshold())
             )
             self._queue.take_also(plot[~now] - ripe)
-        fresh = plots[:ripe][unclaimed]
-        if len(fresh):
-            self._open(fresh, out)
+        self._clutter.observe(plots.range[:ripe][untracked])
+        if unclaimed.any():
+            self._open(plots[:ripe][unclaimed], out)
+
+    def _gain(self, gated: Gated, plots: Plots) -> FloatArray:
+        return score.hit(
+            self.parameters.detection_probability,
+            gated.distance_squared,
+            gated.determinant,
+            self._clutter.per_area(plots.range[gated.plot]),
+        )
+
+    def _choose(
+        self, gated: Gated, gain: FloatArray, confirmed: npt.NDArray[np.bool_], ripe: int
+    ) -> npt.NDArray[np.intp]:
+        against_none = gain - score.miss(self.parameters.detection_probability)
+        weight = np.maximum(against_none, _LEAST_GAIN) + _CONFIRMED_FIRST * confirmed
+        edges = ASSOCIATIONS[self.parameters.association](
+            GateGraph(gated.track, gated.plot, weight)
+        )
+        # A track that only plots still to come can interest waits for their competitors.
+        urgent = np.zeros(len(self._tracks), bool)
+        urgent[gated.track[gated.plot < ripe]] = True
+        return edges[urgent[gated.track[edges]]]
 
     def _open(self, plots: Plots, out: list[Rows]) -> None:
         parameters, gap = self.parameters, self._tracks.longest_gap
@@ -175,11 +190,13 @@ class Tracker:
         return score.confirmation_threshold(per_hour, self.parameters.false_tracks_per_hour)
 
     def _table(self, out: list[Rows], stamp: int) -> Table:
-        rows = np.concatenate(out) if out else np.zeros(0, TRACK)
-        rows["time_offset"] -= self._queue.seconds(stamp)
-        for name in ("x", "y", "z"):
-            rows[name] += getattr(self.parameters, f"radar_{name}")
-        self._watch()
+        # Of equal dtypes; naming it spares numpy a promotion that costs more than the copy.
+        rows = np.concatenate(out, dtype=TRACK) if out else np.zeros(0, TRACK)
+        if len(rows):
+            rows["time_offset"] -= self._queue.seconds(stamp)
+            for name in ("x", "y", "z"):
+                rows[name] += getattr(self.parameters, f"radar_{name}")
+            self._watch()
         return Table(stamp, rows, SITE_FRAME)
 
     def _watch(self) -> None:

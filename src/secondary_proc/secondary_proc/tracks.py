@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+
 from radar_common.health import Health
 from radar_common.tables import TrackStatus
-
 from secondary_proc import score, track_table
 from secondary_proc.gates import Gated, gate
 from secondary_proc.initiation import INITIATIONS, Evidence
-from secondary_proc.motion import FloatArray, two_point_state
+from secondary_proc.motion import FloatArray
+from secondary_proc.opening import first_state
 from secondary_proc.plots import Plots
 from secondary_proc.rotation import Rotation
 from secondary_proc.schedule import passage
@@ -98,7 +99,9 @@ class Tracks:
         """
         store, last = self._store, plots.time[-1]
         shortest = FASTEST_REVISIT * self.period
-        expected = store["time"] <= last - shortest
+        # Where rotation and misses stand still, as after a long silence, the age alone must end a track's claims.
+        longest = (self._parameters.confirmed_misses + 1) * self.period
+        expected = (store["time"] <= last - shortest) & (store["due"] >= plots.time[0] - longest)
         if self._rotation.locked:
             expected &= store["opens"] <= last
         gated = gate(
@@ -178,40 +181,17 @@ class Tracks:
             best = np.sort(np.argsort(-scores, kind="stable")[:room])
             first, second, gap, scores = first[best], second[best], gap[best], scores[best]
         count = len(first)
-        state, covariance = two_point_state(
-            first.position,
-            first.covariance,
-            second.position,
-            second.covariance,
-            second.time - first.time,
-            np.full(count, self._quiet),
-        )
-        tracks = self._store.append(
-            {
-                "id": self._next_id + np.arange(count),
-                "status": TrackStatus.TENTATIVE,
-                "state": state,
-                "covariance": covariance,
-                "memory": np.zeros(count, self._smoother.memory),
-                "time": second.time,
-                "crossing": second.time,
-                "expected": second.time,
-                "opens": second.time,
-                "due": second.time,
-                "born": first.time,
-                "hits": 2,
-                "misses": 0,
-                "rule": self._initiation.opened(gap),
-                "score": scores,
-                "plot_range": second.range,
-                "plot_azimuth": second.azimuth,
-            },
-            count,
-        )
+        columns = first_state(first, second, self._quiet) | {
+            "id": self._next_id + np.arange(count),
+            "memory": np.zeros(count, self._smoother.memory),
+            "rule": self._initiation.opened(gap),
+            "score": scores,
+        }
+        tracks = self._store.append(columns, count)
         self._next_id += count
         self._health.count("tracks opened", count)
         opened = track_table.first_rows(self._rows(tracks), first)
-        return np.concatenate([opened, self._after_plot(tracks, threshold)])
+        return np.concatenate([opened, self._after_plot(tracks, threshold)], dtype=opened.dtype)
 
     def miss(self, until: float) -> list[Rows]:
         """Count a miss for every track that the beam has passed without a plot.
@@ -232,7 +212,7 @@ class Tracks:
             worn = store["misses"][late] >= self._parameters.confirmed_misses
             status[~tentative] = np.where(worn, TrackStatus.ENDED, TrackStatus.COASTING)[~tentative]
             store["status"][late] = status
-            self._health.count("misses of confirmed tracks", np.count_nonzero(~tentative))
+            self._health.count("misses of confirmed tracks", int(np.count_nonzero(~tentative)))
             self._judge(late[tentative], found=False, threshold=np.inf)
             self._schedule(late)
             out.append(self._rows(late, at=store["crossing"][late]))
@@ -254,7 +234,7 @@ class Tracks:
     def _after_plot(self, tracks: IndexArray, threshold: float) -> Rows:
         self._schedule(tracks)
         tentative = ~self.is_confirmed(tracks)
-        self._health.count("plots of confirmed tracks", np.count_nonzero(~tentative))
+        self._health.count("plots of confirmed tracks", int(np.count_nonzero(~tentative)))
         if tentative.any():
             self._judge(tracks[tentative], found=True, threshold=threshold)
         rows = self._rows(tracks)
@@ -276,7 +256,7 @@ class Tracks:
         store["rule"][tracks] = verdict.rule
         store["status"][tracks[verdict.confirmed]] = TrackStatus.CONFIRMED
         store["status"][tracks[verdict.dropped]] = TrackStatus.ENDED
-        self._health.count("tracks confirmed", np.count_nonzero(verdict.confirmed))
+        self._health.count("tracks confirmed", int(np.count_nonzero(verdict.confirmed)))
 
     def _schedule(self, tracks: IndexArray) -> None:
         if not len(tracks):
@@ -302,5 +282,5 @@ class Tracks:
     def _bury(self) -> None:
         ended = self._store["status"] == TrackStatus.ENDED
         if ended.any():
-            self._health.count("tracks ended", np.count_nonzero(ended))
+            self._health.count("tracks ended", int(np.count_nonzero(ended)))
             self._store.remove(ended)

@@ -117,9 +117,7 @@ class AlphaBetaSmoother:
         state = predict_state(measured.state, measured.seconds)
         innovation = measured.position - state[:, :2]
         state += (gain @ innovation[:, :, None])[:, :, 0]
-        covariance = predict_covariance(
-            measured.covariance, measured.seconds, np.full(len(state), self._density)
-        )
+        covariance = predict_covariance(measured.covariance, measured.seconds, self._density)
         covariance = joseph_update(covariance, gain, measured.position_covariance)
         return Smoothed(state, covariance, measured.memory)
 

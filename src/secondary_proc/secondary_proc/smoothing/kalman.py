@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from secondary_proc.motion import (
-    FloatArray,
     inverse_2x2,
     predict_covariance,
     predict_position_covariance,
     predict_state,
+    quadratic_form,
 )
 from secondary_proc.smoothing.interface import Measured, Smoothed, joseph_update
 
@@ -50,10 +50,9 @@ class KalmanSmoother:
         """
         state = predict_state(measured.state, measured.seconds)
         innovation = measured.position - state[:, :2]
-        quiet = np.full(len(state), self._quiet)
-        spread = predict_position_covariance(measured.covariance, measured.seconds, quiet)
-        surprise = _normalised(innovation, spread + measured.position_covariance)
-        fresh = surprise > MANOEUVRE_THRESHOLD
+        spread = predict_position_covariance(measured.covariance, measured.seconds, self._quiet)
+        inverse, _ = inverse_2x2(spread + measured.position_covariance)
+        fresh = quadratic_form(innovation, inverse) > MANOEUVRE_THRESHOLD
         intensity = np.where(fresh, 1.0, _FORGETTING * measured.memory)
         density = self._quiet + (self._manoeuvre - self._quiet) * intensity
         covariance = predict_covariance(measured.covariance, measured.seconds, density)
@@ -63,8 +62,3 @@ class KalmanSmoother:
         return Smoothed(
             state, joseph_update(covariance, gain, measured.position_covariance), intensity
         )
-
-
-def _normalised(innovation: FloatArray, covariance: FloatArray) -> FloatArray:
-    inverse, _ = inverse_2x2(covariance)
-    return np.einsum("ni,nij,nj->n", innovation, inverse, innovation)

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Start the tracker."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ament_index_python.packages import get_package_share_directory
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+from launch import LaunchDescription
+
+
+def generate_launch_description() -> LaunchDescription:
+    config = Path(get_package_share_directory("secondary_proc")) / "config" / "tracker.yaml"
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("name", default_value="tracker", description="name of the node"),
+            DeclareLaunchArgument("namespace", default_value="", description="its namespace"),
+            DeclareLaunchArgument(
+                "params", default_value=str(config), description="ROS 2 parameter file"
+            ),
+            DeclareLaunchArgument(
+                "use_sim_time", default_value="false", description="whether to follow /clock"
+            ),
+            Node(
+                package="secondary_proc",
+                executable="tracker",
+                name=LaunchConfiguration("name"),
+                namespace=LaunchConfiguration("namespace"),
+                output="screen",
+                parameters=[
+                    LaunchConfiguration("params"),
+                    {"use_sim_time": LaunchConfiguration("use_sim_time")},
+                ],
+            ),
+        ]
+    )
