@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import shutil
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -12,6 +13,7 @@ from typing import Any, Protocol
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.plot_extractor import PlotExtractor
 from radar_common.bag import BagWriter, read_tables, topics
+from radar_common.cloud import TableError
 from radar_common.health import Health
 from radar_common.parameters import from_file
 from radar_common.tables import (
@@ -121,18 +123,16 @@ def run_offline(
     wanted = {source: None if source == SWEEPS_TOPIC else PLOT, TRUTH_TOPIC: TRUTH}
     reader = Health()
     total = sum(number for topic, number in held.items() if topic in wanted)
-    plots = 0
-    with writer:
-        for topic, table in progress(read_tables(bag, wanted, reader), total=total):
-            reader.count(f"messages on /{topic}")
-            if topic == TRUTH_TOPIC:
-                writer.write(TRUTH_TOPIC, table)
-            else:
-                plots += _write(writer, stages, topic, table)
-        plots += _flush(writer, stages)
-    if not reader.counts[f"messages on /{source}"]:
-        reasons = ", ".join(reader.dropped) or "there is none"
-        raise EvaluationError(f"bag {bag}: no readable message on /{source}: {reasons}")
+    try:
+        with writer:
+            messages = progress(read_tables(bag, wanted, reader), total=total)
+            plots = sum(_pass_on(writer, stages, reader, *message) for message in messages)
+            plots += _flush(writer, stages)
+        _require_input(bag, source, reader)
+    except BaseException:
+        # Half a bag would only stand in the way of the next attempt.
+        shutil.rmtree(out, ignore_errors=True)
+        raise
     seconds = sum(stage.seconds for stage in stages.values())
     record = RunRecord(
         plots / seconds if seconds else float("nan"),
@@ -141,6 +141,34 @@ def run_offline(
     )
     record.write(out)
     return record
+
+
+def _require_input(bag: str | Path, source: str, reader: Health) -> None:
+    """Refuse a run of which most input was refused: what came out of it would say nothing."""
+    refused = {why: number for why, number in reader.dropped.items() if why.startswith(source)}
+    used = reader.counts[f"messages on /{source}"]
+    if used <= sum(refused.values()):
+        reason = max(refused, key=lambda why: refused[why]) if refused else "there is none"
+        raise EvaluationError(
+            f"bag {bag}: {used} of {used + sum(refused.values())} messages on /{source} can be "
+            f"used: {reason.removeprefix(f'{source}: ')}"
+        )
+
+
+def _pass_on(
+    writer: BagWriter, stages: dict[str, Stage], reader: Health, topic: str, table: Table
+) -> int:
+    plots = 0
+    try:
+        if topic == TRUTH_TOPIC:
+            writer.write(TRUTH_TOPIC, table)
+        else:
+            plots = _process(writer, stages, topic, table)
+        reader.count(f"messages on /{topic}")
+    except TableError as error:
+        # As a live node does: what is no table of its kind is dropped and counted.
+        reader.drop(f"{topic}: {error}")
+    return plots
 
 
 def _stages(source: str, parameters: str | Path | None) -> dict[str, Stage]:
@@ -159,7 +187,7 @@ def _stage(pipeline: Any, kind: Any, parameters: str | Path | None, node: str) -
     return Stage(pipeline(values, health), health)
 
 
-def _write(writer: BagWriter, stages: dict[str, Stage], topic: str, table: Table) -> int:
+def _process(writer: BagWriter, stages: dict[str, Stage], topic: str, table: Table) -> int:
     if topic == SWEEPS_TOPIC:
         table = stages[EXTRACTOR_NODE].process(table)
     # A message may carry more fields than a plot has; the pipelines take plots and nothing else.
@@ -175,7 +203,7 @@ def _flush(writer: BagWriter, stages: dict[str, Stage]) -> int:
     if EXTRACTOR_NODE in stages:
         last = stages[EXTRACTOR_NODE].flush()
         if len(last.rows):
-            plots = _write(writer, stages, PLOTS_TOPIC, last)
+            plots = _process(writer, stages, PLOTS_TOPIC, last)
     tracks = stages[TRACKER_NODE].flush()
     if len(tracks.rows):
         writer.write(TRACKS_TOPIC, tracks)
