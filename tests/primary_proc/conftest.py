@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ PULSE_INTERVAL = 1e-3
 
 @dataclass(frozen=True)
 class Scene:
-    """A radar's video over some pulses; the azimuth of pulse n is n steps from `north_at`."""
+    """A radar's video over some pulses, one after the other from a first azimuth."""
 
     video: np.ndarray
     pulses_per_scan: int
@@ -44,10 +45,7 @@ class Scene:
         """Cut into messages at the given pulses; each is stamped with its first pulse."""
         rows = self.rows(kind)
         bounds = [0, *cuts, len(rows)]
-        return [
-            sector(rows[begin:end], begin)
-            for begin, end in zip(bounds[:-1], bounds[1:], strict=True)
-        ]
+        return [sector(rows[begin:end], begin) for begin, end in pairwise(bounds)]
 
     def rotated(self, angle):
         return replace(self, first_azimuth=self.first_azimuth + angle)

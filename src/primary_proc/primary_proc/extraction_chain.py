@@ -53,6 +53,7 @@ class ExtractionChain:
         self._meter = PowerMeter(self._normaliser.noise_scale, self._detector.memory)
         self._merger = RingMerger(self._design.longest, self._design.gap)
         self._log = PulseLog()
+        self._begin = 0
         self._tune()
 
     def fits(self, pulses: Pulses) -> bool:
@@ -94,6 +95,7 @@ class ExtractionChain:
         plots = self._plots(self._merger.finish())
         self._detector.reset()
         self._meter.reset()
+        self._begin = self._log.next
         return plots
 
     def _block(
@@ -103,7 +105,7 @@ class ExtractionChain:
         ratios = self._meter.room(len(video))
         bad = self._normaliser.ratios(video, ratios)
         bits = self._quantiser.quantise(ratios)
-        closed = self._detector.detect(bits, first)
+        closed = self._whole(self._detector.detect(bits, first))
         going = self._detector.open_bursts()
         self._meter.measure(closed, going, first)
         plots = self._plots(self._merger.add(closed, going, self._log.next - 1))
@@ -113,6 +115,14 @@ class ExtractionChain:
         self._health.count("bursts cut at their longest", int(closed["overflow"].sum()))
         self._rates.add(len(video), self._quantiser.ones, len(plots))
         return plots
+
+    def _whole(self, closed: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
+        """Leave out bursts that were under way when the stream began: their true start was not seen."""
+        whole = closed["start"] > self._begin + self._detector.memory
+        if whole.all():
+            return closed
+        self._health.drop("bursts cut by a break", int((~whole).sum()))
+        return closed[whole]
 
     def _plots(self, groups: Groups) -> npt.NDArray[np.void]:
         bursts = groups.bursts
