@@ -10,7 +10,7 @@ from primary_proc.normalisation import FloatArray, Normaliser, square_finite
 
 Block = npt.NDArray[np.float32]
 
-_BLOCK_BYTES = 128 * 1024
+_BLOCK_BYTES = 144 * 1024
 
 
 class CellAveraging(Normaliser):

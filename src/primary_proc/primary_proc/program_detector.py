@@ -38,6 +38,7 @@ class ProgramDetector(BurstDetector):
         self.longest = longest
         self._history = max(program.window, program.zeros) - 1
         self._column = np.zeros(rings, np.int64)
+        self._busy = np.zeros(rings, bool)
         self._words = -(-rings // 64)
         self.reset()
 
@@ -62,18 +63,19 @@ class ProgramDetector(BurstDetector):
         pulse, ring = self._detections(words, pulses)
         if not len(ring) and not len(self._open):
             return np.zeros(0, BURST)
-        rings = np.union1d(ring, self._open["ring"])
+        self._busy[ring] = self._busy[self._open["ring"]] = True
+        rings = np.flatnonzero(self._busy)
+        self._busy[rings] = False
         self._column[rings] = np.arange(len(rings))
         end = self._next_ends(words, rings, pulses)
 
         # Detections of a ring that run into the same end are one burst, begun by the first of them.
-        stop = end[pulse, self._column[ring]]
-        begins = np.ones(len(ring), bool)
-        begins[1:] = (ring[1:] != ring[:-1]) | (stop[1:] != stop[:-1])
-        open_stop = end[0, self._column[self._open["ring"]]]
+        column, open_column = self._column[ring], self._column[self._open["ring"]]
+        stop, open_stop = end[pulse, column], end[0, open_column]
         going_on = np.full(len(rings), -1)
-        going_on[self._column[self._open["ring"]]] = open_stop
-        begins &= going_on[self._column[ring]] != stop
+        going_on[open_column] = open_stop
+        begins = going_on[column] != stop
+        begins[1:] &= (column[1:] != column[:-1]) | (stop[1:] != stop[:-1])
 
         started = bursts(ring[begins], first + pulse[begins], -1, False)
         return self._close(
@@ -102,12 +104,13 @@ class ProgramDetector(BurstDetector):
                 enough[count] = enough[count] | more if count in enough else more
         if self._program.ones > 1:
             met = met & enough[self._program.ones - 1]
-        pulse, word = np.nonzero(met)
-        bits = np.unpackbits(met[pulse, word].view(np.uint8)).reshape(-1, 64)
-        entry, bit = np.nonzero(bits)
-        ring = word[entry] * 64 + bit
+        words_met = met.reshape(-1)
+        place = np.flatnonzero(words_met)
+        bit = np.flatnonzero(np.unpackbits(words_met[place].view(np.uint8)))
+        pulse, word = np.divmod(place[bit >> 6], self._words)
+        ring = word * 64 + (bit & 63)
         order = np.argsort(ring, kind="stable")
-        return pulse[entry][order], ring[order]
+        return pulse[order], ring[order]
 
     def _next_ends(
         self, words: npt.NDArray[np.uint64], rings: npt.NDArray[np.int64], pulses: int

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from primary_proc.sweep_check import require_sweeps, usable_rows
-from radar_common.frames import TWO_PI, wrap_pi
+from radar_common.frames import TWO_PI
 from radar_common.health import Health
 from radar_common.tables import NANOSECONDS, Table
 
@@ -180,19 +180,20 @@ class SweepStream:
         else:
             before, before_time, started = last, self._last_time, False
 
-        def previous(name: str) -> npt.NDArray[np.float64]:
-            return np.concatenate([before[name], rows[name][:-1]])
-
-        turn = wrap_pi(rows["azimuth"] - previous("azimuth"))
+        turn = _turns(np.concatenate([before["azimuth"], rows["azimuth"]]))
         pause = np.diff(time, prepend=before_time)
         jumped = (turn < _BACK * self._step) | (turn > _AHEAD * self._step) | (pause < 0.0)
         if self._period:
             jumped |= pause > _PAUSE * self._period
-        other = (rows["range_start"] != previous("range_start")) | (
-            rows["range_step"] != previous("range_step")
+        other = np.zeros(len(rows), bool)
+        for name in ("range_start", "range_step"):
+            layout = rows[name]
+            if (layout != before[name]).any():
+                other |= layout != np.concatenate([before[name], layout[:-1]])
+        self._health.drop(
+            "stream broken by a gap or jump of azimuth or time", np.count_nonzero(jumped)
         )
-        self._health.drop("stream broken by a gap or jump of azimuth or time", jumped.sum())
-        self._health.drop("stream broken by other range cells", other.sum())
+        self._health.drop("stream broken by other range cells", np.count_nonzero(other))
         breaks = jumped | other
         breaks[0] |= started
         return turn, breaks
@@ -213,9 +214,15 @@ class SweepStream:
         return True
 
 
+def _turns(azimuth: FloatArray) -> FloatArray:
+    """Turn from each pulse to the next, the shorter way around."""
+    turn = azimuth[1:] - azimuth[:-1]
+    return turn - TWO_PI * np.rint(turn / TWO_PI)
+
+
 def _mean_step(azimuth: FloatArray) -> float:
     """Mean step without lost pulses; also of an encoder that is coarser than the step."""
-    turn = wrap_pi(np.diff(azimuth))
+    turn = _turns(azimuth)
     middle = float(np.median(turn))
     if middle <= 0.0:
         return float(turn.mean())
