@@ -30,7 +30,7 @@ types: setup
 	$(BIN)/mypy
 
 unit: setup
-	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/pytest --numprocesses $(WORKERS)
+	$(BIN)/pytest --numprocesses $(WORKERS)
 
 bench: setup
 	$(BIN)/pytest bench --benchmark-columns=min,median,rounds --benchmark-group-by=group

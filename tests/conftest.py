@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import os
+import shutil
+import sys
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,10 @@ import pytest
 # Domains 102 and above collide with ephemeral ports; each worker of a parallel run takes one.
 _WORKER = os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")
 os.environ.setdefault("ROS_DOMAIN_ID", str(10 + int(_WORKER) % 40))
+
+if shutil.which("ros2") is None:
+    # Without a sourced ROS 2 the command stands beside the interpreter of the environment.
+    os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 
 ROOT = Path(__file__).resolve().parents[1]
 

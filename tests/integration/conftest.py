@@ -119,5 +119,5 @@ def ros2():
 
 @pytest.fixture(scope="session")
 def reliable_sweeps():
-    """Arguments that make an extractor lose no sweep."""
-    return ["--ros-args", "-p", f"{RELIABLE_SWEEPS}:=reliable"]
+    """ROS arguments that make an extractor lose no sweep."""
+    return ["-p", f"{RELIABLE_SWEEPS}:=reliable"]

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.parameter import Parameter
 from sensor_msgs.msg import PointCloud2, PointField
 
 from primary_proc.plot_extractor_node import PlotExtractorNode
@@ -20,7 +21,7 @@ from secondary_proc.tracker_node import TrackerNode
 
 
 def sectors(count):
-    simulator = Simulator.from_parameters(SimulatorParameters(scenario="tiny"), start=10**18)
+    simulator = Simulator.from_parameters(SimulatorParameters(scenario="tiny"))
     return [next(simulator).sweeps for _ in range(count)]
 
 
@@ -70,7 +71,11 @@ def dropped(driver, name):
 
 
 def test_the_extractor_survives(context, executor, driver, listener, spin_until):
-    executor.add_node(PlotExtractorNode(context=context))
+    executor.add_node(
+        PlotExtractorNode(
+            context=context, parameter_overrides=[Parameter("beamwidth_deg", value=10.0)]
+        )
+    )
     publisher = driver.create_publisher(PointCloud2, SWEEPS_TOPIC, qos.SWEEPS_OUT)
     spin_until(lambda: publisher.get_subscription_count() == 1, "the extractor")
     first, *rest = sectors(40)

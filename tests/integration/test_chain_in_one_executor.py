@@ -21,6 +21,7 @@ from secondary_proc.tracker_node import TrackerNode
 
 SCANS = 12
 SECTORS = 32
+TINY_BEAMWIDTH_DEG = 10.0
 
 
 @pytest.fixture
@@ -30,13 +31,14 @@ def live(context, executor, listener, spin_until):
     extractor = PlotExtractorNode(
         context=context,
         parameter_overrides=[
-            Parameter("qos_overrides./radar/sweeps.subscription.reliability", value="reliable")
+            Parameter("qos_overrides./radar/sweeps.subscription.reliability", value="reliable"),
+            Parameter("beamwidth_deg", value=TINY_BEAMWIDTH_DEG),
         ],
     )
     settings = {
         "scenario": "tiny",
         "scans": SCANS,
-        "rate": 0.0,
+        "rate": 20.0,
         "wait_for_subscribers": 1,
         "wait_for_truth_subscribers": 1,
     }
@@ -59,10 +61,9 @@ def live(context, executor, listener, spin_until):
 
 def offline(start):
     health = Health()
-    simulator = Simulator.from_parameters(
-        SimulatorParameters(scenario="tiny", scans=SCANS), start=start
-    )
-    extractor = PlotExtractor(ExtractorParameters(), health)
+    simulator = Simulator.from_parameters(SimulatorParameters(scenario="tiny", scans=SCANS))
+    simulator.start = start
+    extractor = PlotExtractor(ExtractorParameters(beamwidth_deg=TINY_BEAMWIDTH_DEG), health)
     tracker = Tracker(TrackerParameters(), health)
     for sector in simulator:
         plots = extractor.process(sector.sweeps)

@@ -27,11 +27,21 @@ from radar_sim.recording import record
 
 SCANS = 8
 SECTORS = 32
+TINY_BEAMWIDTH_DEG = 10.0
+EXTRACTOR = ["--ros-args", "-p", f"beamwidth_deg:={TINY_BEAMWIDTH_DEG}"]
 
 
 def test_three_processes_track_every_target_of_the_recording(tmp_path):
     bag = tmp_path / "live"
-    record_live_chain(bag, tmp_path / "logs", scenario="tiny", scans=SCANS, rate=20.0, seed=3)
+    record_live_chain(
+        bag,
+        tmp_path / "logs",
+        scenario="tiny",
+        scans=SCANS,
+        rate=8.0,
+        seed=3,
+        extractor={"beamwidth_deg": TINY_BEAMWIDTH_DEG},
+    )
     assert set(topics(bag)) == {PLOTS_TOPIC, TRACKS_TOPIC, TRUTH_TOPIC}
     expected = {TRACKS_TOPIC: TRACK, TRUTH_TOPIC: TRUTH}
     tables = {topic: [] for topic in expected}
@@ -50,18 +60,26 @@ def recording(tmp_path_factory):
     return path
 
 
+def quietly(messages, total):
+    return messages
+
+
 def test_a_played_bag_gives_the_tracks_of_the_offline_run(
     recording, listener, ros2, reliable_sweeps, spin_until, tmp_path
 ):
     with (
         ros2("run", "secondary_proc", "tracker"),
-        ros2("run", "primary_proc", "plot_extractor", *reliable_sweeps),
+        ros2("run", "primary_proc", "plot_extractor", *EXTRACTOR, *reliable_sweeps),
     ):
         spin_until(listener.ready, "extractor and tracker")
         # The delay is the player's own: it lets subscriptions be discovered, as `ros2 bag play` offers it.
         with ros2("bag", "play", str(recording), "--delay", "2", "--rate", "4"):
             spin_until(lambda: len(listener.tables[TRACKS_TOPIC]) == SCANS * SECTORS, "all tracks")
-    run_offline(recording, tmp_path / "offline")
+    parameters = tmp_path / "tiny.yaml"
+    parameters.write_text(
+        f"plot_extractor: {{ros__parameters: {{beamwidth_deg: {TINY_BEAMWIDTH_DEG}}}}}\n"
+    )
+    run_offline(recording, tmp_path / "offline", parameters=parameters, progress=quietly)
     for topic, dtype in ((PLOTS_TOPIC, PLOT), (TRACKS_TOPIC, TRACK)):
         expected = [t for _, t in read_tables(tmp_path / "offline", {topic: dtype})]
         heard = listener.tables[topic]
@@ -71,29 +89,29 @@ def test_a_played_bag_gives_the_tracks_of_the_offline_run(
 
 
 @pytest.mark.parametrize(
-    ("package", "node", "topic"),
-    [("primary_proc", "plot_extractor", PLOTS_TOPIC), ("secondary_proc", "tracker", TRACKS_TOPIC)],
+    ("node", "topic"), [("plot_extractor", PLOTS_TOPIC), ("tracker", TRACKS_TOPIC)]
 )
-def test_a_killed_node_comes_back(package, node, topic, listener, ros2, spin_until):
+def test_a_killed_node_comes_back(node, topic, listener, ros2, spin_until):
     simulator = ["-p", "scenario:=tiny", "-p", "rate:=8.0", "-p", "wait_for_subscribers:=1"]
-    peers = {"plot_extractor": "primary_proc", "tracker": "secondary_proc"}
-    (other,) = set(peers) - {node}
+    extractor = ["run", "primary_proc", "plot_extractor", *EXTRACTOR]
+    tracker = ["run", "secondary_proc", "tracker"]
+    killed, other = (extractor, tracker) if node == "plot_extractor" else (tracker, extractor)
 
     def confirmed_since(number):
         rows = [t.rows for t in listener.tables[TRACKS_TOPIC][number:]]
         return any((r["status"] == TrackStatus.CONFIRMED).any() for r in rows)
 
     with (
-        ros2("run", peers[other], other),
+        ros2(*other),
         ros2("run", "radar_sim", "radar_simulator", "--ros-args", *simulator) as source,
     ):
-        with ros2("run", package, node) as victim:
+        with ros2(*killed) as victim:
             spin_until(lambda: confirmed_since(0), "the first confirmed track")
             os.killpg(victim.pid, signal.SIGKILL)
             victim.wait()
         spin_until(lambda: not listener.node.count_publishers(f"/{topic}"), "the node to be gone")
         before = len(listener.tables[TRACKS_TOPIC])
-        with ros2("run", package, node):
+        with ros2(*killed):
             spin_until(lambda: confirmed_since(before), "confirmed tracks after the restart")
             assert source.poll() is None
     assert listener.node.count_publishers(f"/{SWEEPS_TOPIC}") <= 1

@@ -8,17 +8,19 @@ import re
 import signal
 import subprocess
 import threading
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+from radar_eval.errors import EvaluationError
+
 STOP_TIMEOUT = 15.0
 START_TIMEOUT = 60.0
 
 
-class ChainError(RuntimeError):
+class ChainError(EvaluationError):
     """A process of the chain did not start or failed."""
 
 
@@ -120,7 +122,14 @@ class RosProcess:
 
 
 def record_live_chain(
-    bag: Path, logs: Path, *, scenario: str, scans: int, rate: float, seed: int
+    bag: Path,
+    logs: Path,
+    *,
+    scenario: str,
+    scans: int,
+    rate: float,
+    seed: int,
+    extractor: Mapping[str, object] | None = None,
 ) -> None:
     """Run simulator, extractor and tracker as three processes and record what they say.
 
@@ -131,13 +140,14 @@ def record_live_chain(
         scans: antenna turns to run.
         rate: simulated seconds a second.
         seed: of the simulator.
+        extractor: parameters of the extractor that differ from its defaults.
 
     Raises:
         ChainError: a process did not start or failed.
     """
     logs.mkdir(parents=True, exist_ok=True)
     # The simulator outruns real time here: a sweep lost by best effort would be the demo's fault, not the chain's.
-    reliable = ["-p", "qos_overrides./radar/sweeps.subscription.reliability:=reliable"]
+    extraction = {"qos_overrides./radar/sweeps.subscription.reliability": "reliable"}
     topics = ["/radar/plots", "/radar/tracks", "/truth"]
     simulator = {
         "scenario": scenario,
@@ -147,22 +157,29 @@ def record_live_chain(
         "wait_for_subscribers": 1,
         "wait_for_truth_subscribers": 1,
     }
-    settings = [part for k, v in simulator.items() for part in ("-p", f"{k}:={v}")]
     with ExitStack() as stack:
         recorder = stack.enter_context(
             RosProcess(["bag", "record", "-o", str(bag), *topics], logs / "recorder.log")
         )
-        for package, node, extra in (
-            ("secondary_proc", "tracker", []),
-            ("primary_proc", "plot_extractor", ["--ros-args", *reliable]),
+        for package, node, settings in (
+            ("secondary_proc", "tracker", {}),
+            ("primary_proc", "plot_extractor", extraction | dict(extractor or {})),
         ):
-            stack.enter_context(RosProcess(["run", package, node, *extra], logs / f"{node}.log"))
+            stack.enter_context(
+                RosProcess(["run", package, node, *_ros_args(settings)], logs / f"{node}.log")
+            )
         recorder.wait_for("'/radar/tracks'")
         recorder.wait_for("'/radar/plots'")
         source = stack.enter_context(
             RosProcess(
-                ["run", "radar_sim", "radar_simulator", "--ros-args", *settings],
+                ["run", "radar_sim", "radar_simulator", *_ros_args(simulator)],
                 logs / "radar_simulator.log",
             )
         )
         source.wait(timeout=600.0)
+
+
+def _ros_args(settings: Mapping[str, object]) -> list[str]:
+    if not settings:
+        return []
+    return ["--ros-args", *(part for k, v in settings.items() for part in ("-p", f"{k}:={v}"))]

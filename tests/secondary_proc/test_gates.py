@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Gates hold exactly the plots that the predicted error says, however they are searched."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from secondary_proc import neighbours
+from secondary_proc.gates import gate
+from secondary_proc.neighbours import neighbour_pairs
+from secondary_proc.opening import first_state
+from secondary_proc.plots import QUEUE_COLUMNS, Plots
+from secondary_proc.track_store import TrackStore
+
+SIGMAS = 3.5
+DENSITY = 30.0
+
+
+def plots_at(random, count, begin, end, spread):
+    rows = np.zeros((count, QUEUE_COLUMNS))
+    rows[:, 0] = np.sort(random.uniform(begin, end, count))
+    rows[:, 1] = random.uniform(40e3, 40e3 + spread, count)
+    rows[:, 2] = random.uniform(0.5, 0.5 + spread / 40e3, count)
+    rows[:, 3], rows[:, 4] = 20.0, 0.002
+    return Plots.from_queue(rows)
+
+
+def store_of(random, count, spread):
+    store = TrackStore(np.dtype(float))
+    first = plots_at(random, count, 0.0, 1.0, spread)
+    second = plots_at(random, count, 4.0, 5.0, spread)
+    # Flights of up to 300 m/s rather than pairs of anything.
+    velocity = random.uniform(-200.0, 200.0, (count, 2))
+    step = velocity * (second.time - first.time)[:, None]
+    second = Plots(
+        second.time, second.range, second.azimuth, first.position + step, second.covariance
+    )
+    columns = first_state(first, second, 0.3)
+    store.append(columns | {"id": np.arange(count), "memory": 0.0, "rule": 0, "score": 0.0}, count)
+    return store
+
+
+def by_brute_force(store, plots, shortest):
+    """One pair at a time, with matrices: Kuzmin 1967, (4.141)."""
+    found = {}
+    for i in range(len(store)):
+        for j in range(len(plots)):
+            dt = plots.time[j] - store["time"][i]
+            if dt < shortest:
+                continue
+            matrix = np.eye(4)
+            matrix[0, 2] = matrix[1, 3] = dt
+            covariance = (matrix @ store["covariance"][i] @ matrix.T)[:2, :2]
+            covariance = covariance + np.eye(2) * DENSITY * dt**3 / 3 + plots.covariance[j]
+            difference = plots.position[j] - (matrix @ store["state"][i])[:2]
+            distance = difference @ np.linalg.solve(covariance, difference)
+            if distance <= SIGMAS**2:
+                found[i, j] = distance, np.linalg.det(covariance)
+    return found
+
+
+@pytest.mark.parametrize("dense", [0, 10**9], ids=["by cells", "by matrix"])
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    tracks=st.integers(1, 25),
+    plots=st.integers(1, 25),
+    spread=st.sampled_from([300.0, 3e3, 60e3]),
+)
+def test_gates_hold_what_brute_force_finds(dense, seed, tracks, plots, spread):
+    random = np.random.default_rng(seed)
+    store, new = store_of(random, tracks, spread), plots_at(random, plots, 7.5, 8.5, spread)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(neighbours, "_DENSE", dense)
+        gated = gate(
+            store,
+            np.arange(tracks),
+            new,
+            sigmas=SIGMAS,
+            noise_density=DENSITY,
+            shortest=3.0,
+        )
+    expected = by_brute_force(store, new, 3.0)
+    found = {
+        (int(i), int(j)): (d, s)
+        for i, j, d, s in zip(
+            gated.track, gated.plot, gated.distance_squared, gated.determinant, strict=True
+        )
+    }
+    assert found.keys() == expected.keys()
+    for pair, values in expected.items():
+        np.testing.assert_allclose(found[pair], values, rtol=1e-6)
+
+
+def test_gate_of_no_track_is_empty():
+    random = np.random.default_rng(0)
+    plots = plots_at(random, 3, 0.0, 1.0, 1e3)
+    empty = TrackStore(np.dtype(float))
+    gated = gate(
+        empty, np.zeros(0, np.intp), plots, sigmas=SIGMAS, noise_density=DENSITY, shortest=3.0
+    )
+    assert len(gated.track) == 0
+
+
+@pytest.mark.parametrize("dense", [0, 10**9], ids=["by cells", "by matrix"])
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    first=st.integers(1, 40),
+    second=st.integers(1, 40),
+    radius=st.floats(1e-3, 2e5),
+)
+def test_neighbours_are_all_that_are_near(dense, seed, first, second, radius):
+    random = np.random.default_rng(seed)
+    a, b = random.uniform(-1e5, 1e5, (first, 2)), random.uniform(-1e5, 1e5, (second, 2))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(neighbours, "_DENSE", dense)
+        i, j, skipped = neighbour_pairs(a, b, radius, 10**6)
+    assert skipped == 0
+    near = np.abs(a[:, None] - b[None]).max(axis=2) <= radius
+    assert sorted(zip(i.tolist(), j.tolist(), strict=True)) == [
+        tuple(pair) for pair in np.argwhere(near).tolist()
+    ]
+
+
+def test_neighbours_beyond_the_limit_are_left_out_and_told():
+    points = np.zeros((200, 2))
+    i, _, skipped = neighbour_pairs(points, points, 1.0, 50 * 200)
+    assert skipped == 150
+    assert set(i.tolist()) == set(range(50))
