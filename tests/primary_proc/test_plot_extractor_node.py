@@ -3,16 +3,19 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
+from sensor_msgs.msg import Image
 
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.plot_extractor import PlotExtractor
-from primary_proc.plot_extractor_node import PlotExtractorNode, main
+from primary_proc.plot_extractor_node import PPI_TOPIC, PlotExtractorNode, main
 from radar_common.health import Health
 from radar_common.ros import qos
 from radar_common.ros.messages import TablePublisher, TableSubscription
@@ -21,7 +24,9 @@ from radar_common.tables import PLOT, PLOTS_TOPIC, SWEEPS_TOPIC, TRUTH, Table
 
 TIMEOUT = 20.0
 SETTINGS = {"beamwidth_deg": 3.0, "false_plots_per_scan": 5.0}
-RELIABLE = f"qos_overrides./{SWEEPS_TOPIC}.subscription.reliability"
+# Tests that run at the same time on one machine do not hear each other.
+NAMESPACE = f"/extractor_{os.getpid()}"
+RELIABLE = f"qos_overrides.{NAMESPACE}/{SWEEPS_TOPIC}.subscription.reliability"
 
 
 @pytest.fixture
@@ -36,14 +41,14 @@ def context():
 def extractor(context):
     overrides = [Parameter(name, value=value) for name, value in SETTINGS.items()]
     overrides.append(Parameter(RELIABLE, value="reliable"))
-    node = PlotExtractorNode(context=context, parameter_overrides=overrides)
+    node = PlotExtractorNode(context=context, namespace=NAMESPACE, parameter_overrides=overrides)
     yield node
     node.destroy_node()
 
 
 @pytest.fixture
 def user(context):
-    node = rclpy.create_node("user", context=context)
+    node = rclpy.create_node("user", context=context, namespace=NAMESPACE)
     yield node
     node.destroy_node()
 
@@ -75,7 +80,12 @@ def spin(context, extractor, user):
 @pytest.fixture
 def send(user, spin):
     publisher = TablePublisher(user, SWEEPS_TOPIC, qos.SWEEPS_OUT)
-    spin(lambda: user.count_subscribers(SWEEPS_TOPIC) and user.count_publishers(PLOTS_TOPIC))
+    spin(
+        lambda: (
+            user.count_subscribers(f"{NAMESPACE}/{SWEEPS_TOPIC}")
+            and user.count_publishers(f"{NAMESPACE}/{PLOTS_TOPIC}")
+        )
+    )
     return publisher.publish
 
 
@@ -116,6 +126,24 @@ def test_a_change_of_parameters_takes_effect(send, spin, received, sectors, extr
     assert [t.rows.tobytes() for t in received] == [
         pipeline.process(t).rows.tobytes() for t in sectors
     ]
+
+
+def test_a_picture_a_turn_for_those_who_ask(send, spin, user, extractor, scene, cut):
+    pictures = []
+    user.create_subscription(Image, PPI_TOPIC, pictures.append, 5)
+    assert extractor.set_parameters([Parameter("ppi_pixels", value=64)])[0].successful
+    spin(lambda: user.count_subscribers(f"{NAMESPACE}/{PPI_TOPIC}") == 1)
+    spin(lambda: extractor._pictures.get_subscription_count() == 1)
+    made = scene(32, 1100, 64, [(256.0, 48.5, 40.0)])
+    for table in made.sectors(*cut(100, made)):
+        send(table)
+    spin(lambda: pictures)
+    picture = pictures[0]
+    assert (picture.height, picture.width, picture.step, picture.encoding) == (64, 64, 64, "mono8")
+    brightest = np.argmax(np.frombuffer(picture.data, np.uint8))
+    row, column = divmod(int(brightest), 64)
+    assert abs(row - 32) <= 2, "in the east"
+    assert abs(column - 56) <= 2, "three quarters out"
 
 
 def test_impossible_parameters_end_the_node_with_the_reason(capsys):

@@ -80,6 +80,13 @@ class ExtractorParameters(Parameters):
         high=1000,
     )
 
+    ppi_pixels: int = parameter(
+        0,
+        "size of the picture for people on radar/ppi, one a turn; 0 for none",
+        low=0,
+        high=4096,
+    )
+
     def check(self) -> None:
         """Check what must hold between the values.
 
