@@ -191,9 +191,9 @@ class SweepStream:
             if (layout != before[name]).any():
                 other |= layout != np.concatenate([before[name], layout[:-1]])
         self._health.drop(
-            "stream broken by a gap or jump of azimuth or time", np.count_nonzero(jumped)
+            "stream broken by a gap or jump of azimuth or time", int(np.count_nonzero(jumped))
         )
-        self._health.drop("stream broken by other range cells", np.count_nonzero(other))
+        self._health.drop("stream broken by other range cells", int(np.count_nonzero(other)))
         breaks = jumped | other
         breaks[0] |= started
         return turn, breaks
