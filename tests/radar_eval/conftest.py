@@ -82,7 +82,9 @@ class World:
         time = np.full(len(target), 0.5 * PERIOD) + scan * PERIOD
         for _ in range(20):
             x, y = self.at(target, time).T
-            azimuth = polar_from_enu(x, y)[1]
+            azimuth = polar_from_enu(x, y)[1].reshape(-1, self.scans)
+            # A target that goes back across north is passed twice in one turn of the antenna.
+            azimuth = np.unwrap(azimuth, axis=1).ravel()
             time = (scan + azimuth / (2.0 * np.pi)) * PERIOD
         order = np.argsort(time, kind="stable")
         return target[order], time[order]

@@ -23,7 +23,7 @@ def report(time, nautical_miles, degrees, *, address=0x4CA123, difference=None, 
     items = {
         "010": (("SAC", flags.get("sac", 20)), ("SIC", 129)),
         "140": (time, "s"),
-        "020": (flags.get("typ", 7), flags.get("sim", 0), 0, 0, 0, None),
+        "020": (flags.get("typ", 7) << 4 | flags.get("sim", 0) << 3,),
         "040": (("RHO", (nautical_miles, "NM")), ("THETA", (degrees, "°"))),
         "200": (("GSP", (0.1, "NM/s")), ("HDG", (90.0, "°"))),
     }
@@ -132,7 +132,7 @@ def test_without_primary_the_reports_are_the_plots():
 
 def test_the_truth_goes_on_where_there_is_no_primary_plot():
     blocks = traffic()
-    blocks[5::12] = [report(28801.0 + n, 28.0, 165.0, address=0x400005) for n in range(20)]
+    blocks[5::12] = traffic(difference=None)[5::12]
     result = imported(blocks, primary=True)
     assert len(result.plots) == 11 * 20
     assert len(result.truth) == 12 * 20
