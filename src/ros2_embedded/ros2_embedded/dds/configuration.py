@@ -13,9 +13,7 @@ import os
 from collections.abc import Mapping
 from xml.sax.saxutils import quoteattr
 
-_LOSS_FREE_GENERAL = (
-    "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>16000B</FragmentSize>"
-)
+_LOSS_FREE_GENERAL = "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>16000B</FragmentSize>"
 # `max` takes what the kernel gives; `min` would fail where it gives less.
 _LOSS_FREE_INTERNAL = (
     '<Internal><SocketReceiveBufferSize max="16MB"/><NackDelay>1ms</NackDelay>'
@@ -72,8 +70,7 @@ def _fragment(discovery_range: str, peers: list[str], loss_free: bool) -> str:
         general = "<AllowMulticast>false</AllowMulticast>"
         # Nobody has this tag, so nobody is discovered.
         discovery = (
-            "<ParticipantIndex>none</ParticipantIndex>"
-            f"<Tag>ros_discovery_off_{os.getpid()}</Tag>"
+            f"<ParticipantIndex>none</ParticipantIndex><Tag>ros_discovery_off_{os.getpid()}</Tag>"
         )
     else:
         general = "<AllowMulticast>false</AllowMulticast>"

@@ -176,9 +176,7 @@ class Reader:
         sample = ct.c_void_p()
         info = library.SampleInfo()
         while True:
-            count = library.take_cdr(
-                self.handle, ct.byref(sample), 1, ct.byref(info), ANY_STATE
-            )
+            count = library.take_cdr(self.handle, ct.byref(sample), 1, ct.byref(info), ANY_STATE)
             if check(count, "take") == 0:
                 return None
             try:
@@ -214,4 +212,3 @@ def _convert(sample: ct.c_void_p, convert: Callable[[memoryview], T]) -> T:
         return convert(memoryview(memory).cast("B"))
     finally:
         library.serdata_return(borrowed, ct.byref(buffer))
-

@@ -171,7 +171,9 @@ class Graph:
     def refresh(self) -> None:
         """Take in the news that have arrived."""
         with self._lock:
-            while (taken := self._reader.take(lambda data: deserialize(data, _INFO_TYPE))) is not None:
+            while (
+                taken := self._reader.take(lambda data: deserialize(data, _INFO_TYPE))
+            ) is not None:
                 self._read_info(taken[0])
             for name, found in self._found.items():
                 for endpoint in self._builtin[name].take(N=_TAKE_LIMIT):

@@ -9,7 +9,7 @@ stop the acknowledgements it waits for.)
 from __future__ import annotations
 
 import ctypes as ct
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cyclonedds.core import Entity
 from cyclonedds.internal import DDS, dds_c_t
@@ -41,11 +41,11 @@ class Buffer(ct.Structure):
     _fields_ = (("data", ct.c_void_p), ("size", ct.c_size_t))
 
 
-def _function(name: str, result: object, arguments: Sequence[object]) -> Callable[..., int]:
+def _function(name: str, result: Any, arguments: Sequence[Any]) -> Callable[..., int]:
     function = getattr(DDS._dll_handle, name)
     # A copy of its own: the Python package sets other argument types on the shared one.
     prototype = ct.CFUNCTYPE(result, *arguments)
-    return prototype(ct.cast(function, ct.c_void_p).value)
+    return prototype(ct.cast(function, ct.c_void_p).value or 0)
 
 
 _ENTITY = ct.c_int32
@@ -61,9 +61,7 @@ serdata_borrow = _function(
     ct.c_void_p,
     [ct.c_void_p, ct.c_size_t, ct.c_size_t, ct.POINTER(Buffer)],
 )
-serdata_return = _function(
-    "ddsi_serdata_to_ser_unref", None, [ct.c_void_p, ct.POINTER(Buffer)]
-)
+serdata_return = _function("ddsi_serdata_to_ser_unref", None, [ct.c_void_p, ct.POINTER(Buffer)])
 serdata_release = _function("ddsi_serdata_unref", None, [ct.c_void_p])
 wait_for_acks = _function("dds_wait_for_acks", ct.c_int32, [_ENTITY, ct.c_int64])
 assert_liveliness = _function("dds_assert_liveliness", ct.c_int32, [_ENTITY])

@@ -18,7 +18,6 @@ from ros2_embedded.dds.configuration import domain_configuration
 from ros2_embedded.dds.library import delete_entity
 from ros2_embedded.dds.types import idl_struct
 
-
 _open_participants: weakref.WeakSet[Participant] = weakref.WeakSet()
 
 

@@ -79,9 +79,7 @@ def endpoint_qos(profile: Profile, user_data: str) -> Qos:
         if profile.reliability == 2
         else Policy.Reliability.Reliable(INFINITE),
         Policy.WriterDataLifecycle(autodispose=False),
-        Policy.DataRepresentation(
-            use_cdrv0_representation=True, use_xcdrv2_representation=False
-        ),
+        Policy.DataRepresentation(use_cdrv0_representation=True, use_xcdrv2_representation=False),
         Policy.Userdata(user_data.encode()),
     ]
     if profile.durability == 1:

@@ -60,7 +60,10 @@ def idl_struct(ros_type: str, with_request_id: bool = False) -> type[IdlStruct]:
     if with_request_id:
         members = {"request_client_id": types.uint64, "request_sequence": types.int64}
     members |= {name: _idl_type(desc) for name, desc in type_store().fielddefs[ros_type][1]}
-    return make_idl_struct(ros_type.replace("/", "_"), dds_type_name(ros_type), members)
+    made: type[IdlStruct] = make_idl_struct(
+        ros_type.replace("/", "_"), dds_type_name(ros_type), members
+    )
+    return made
 
 
 def _idl_type(desc: Any) -> Any:

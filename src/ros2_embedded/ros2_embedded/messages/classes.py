@@ -8,7 +8,6 @@ import re
 from copy import copy
 from functools import cache
 from operator import attrgetter
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from rosbags.typesys.base import normalize_fieldname
@@ -38,7 +37,6 @@ class Message:
     # Under names that cannot be those of fields or their slots.
     __ros_type__: ClassVar[str]
     __ros_fields__: ClassVar[tuple[Field, ...]]
-    _check_fields: bool
     __ros_names__: ClassVar[frozenset[str]]
     #: Stands for the member that an empty structure has on the wire.
     _empty_member = 0
@@ -52,13 +50,12 @@ class Message:
         Raises:
             AssertionError: A keyword is no field, or a value does not fit its field.
         """
-        self._check_fields = kwargs.get("check_fields", CHECK_FIELDS)
+        checked: bool = kwargs.get("check_fields", CHECK_FIELDS)
+        object.__setattr__(self, "_check_fields", checked)
         if kwargs:
-            if self._check_fields:
+            if checked:
                 unknown = sorted(kwargs.keys() - self.__ros_names__)
-                assert not unknown, (
-                    f"Invalid arguments passed to constructor: {', '.join(unknown)}"
-                )
+                assert not unknown, f"Invalid arguments passed to constructor: {', '.join(unknown)}"
             for field in self.__ros_fields__:
                 if field.name in kwargs:
                     value = kwargs[field.name]
@@ -70,6 +67,7 @@ class Message:
                 setattr(self, "_" + field.name, field.default())
 
     def __repr__(self) -> str:
+        """Show it as an expression."""
         package = self.__class__.__module__.rpartition(".")[0]
         values = []
         for field in self.__ros_fields__:
@@ -79,13 +77,14 @@ class Message:
         return f"{package}.{self.__class__.__name__}({', '.join(values)})"
 
     def __eq__(self, other: object) -> bool:
+        """Compare all fields."""
         if not isinstance(other, self.__class__):
             return False
         for field in self.__ros_fields__:
             unequal = getattr(self, field.name) != getattr(other, field.name)
             # As in rosidl, arrays differ only if every element does. A program must not
             # get a better answer here than it will get there.
-            if unequal.all() if field.is_number_array else unequal:  # type: ignore[union-attr]
+            if unequal.all() if field.is_number_array else unequal:
                 return False
         return True
 
@@ -131,7 +130,7 @@ def message_class(ros_type: str) -> type[Message]:
         for name, desc in definitions
         if name != EMPTY_MEMBER
     )
-    values = {
+    values: dict[str, object] = {
         name: bytes((value,)) if kind == "byte" else value  # type: ignore[arg-type]
         for name, kind, value in constants
     }
@@ -210,16 +209,20 @@ def _with_default(field: Field, defaults: dict[str, object]) -> Field:
 def _metaclass(name: str, constants: dict[str, object]) -> type:
     """Make constants read-only attributes of the class, as rosidl does."""
     properties = {
-        key: property(lambda cls, value=value: value, None, None, f"Message constant '{key}'.")
-        for key, value in MappingProxyType(constants).items()
+        key: property(_constant(value), None, None, f"Message constant '{key}'.")
+        for key, value in constants.items()
     }
     return type(f"Metaclass_{name}", (type,), properties)
+
+
+def _constant(value: object) -> Callable[[type], object]:
+    return lambda cls: value
 
 
 def _setter(field: Field) -> Callable[[Message, Any], None]:
     slot, assign = f"_{field.name}", field.assign
 
-    def set_value(self: Message, value: Any) -> None:
+    def set_value(self: Any, value: Any) -> None:
         setattr(self, slot, assign(value, self._check_fields))
 
     return set_value
@@ -241,6 +244,6 @@ def _make_from_wire(cls: type[Message]) -> Callable[..., Message]:
         value = f"convert_{index}(values[{index}])" if field.from_wire else f"values[{index}]"
         lines.append(f" message._{field.name} = {value}")
     lines.append(" return message")
-    exec("\n".join(lines), scope)  # noqa: S102
+    exec("\n".join(lines), scope)
     made: Callable[..., Message] = scope["from_wire"]
     return made

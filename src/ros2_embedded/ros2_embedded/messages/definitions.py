@@ -79,10 +79,10 @@ def _enter(store: Typestore, name: str, constants: Any, fields: Any) -> None:
 
 
 def _char_as_uint8(desc: FieldDesc) -> FieldDesc:
-    kind, value = desc
+    kind, value = cast("tuple[Nodetype, Any]", desc)
     if kind == Nodetype.BASE:
         return cast("FieldDesc", (kind, ("uint8", 0) if value[0] == "char" else value))
     if kind == Nodetype.NAME:
         return desc
     element, size = value
-    return cast("FieldDesc", (kind, (_char_as_uint8(cast("Any", element)), size)))
+    return cast("FieldDesc", (kind, (_char_as_uint8(element), size)))

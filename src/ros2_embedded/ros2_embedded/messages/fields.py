@@ -9,38 +9,23 @@ scalars of exactly the declared Python type.
 from __future__ import annotations
 
 import array
-import math
-from collections import UserList, UserString
-from collections.abc import Callable, Sequence, Set
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from rosbags.interfaces import Nodetype
 
+from ros2_embedded.messages.field_checks import (
+    TYPECODES,
+    Check,
+    element_check,
+    element_text,
+    list_check,
+)
+
 if TYPE_CHECKING:
     from rosbags.interfaces.typing import FieldDesc
-
-#: Name of each base type in ``get_fields_and_field_types``.
-IDL_NAMES = {"bool": "boolean", "byte": "octet", "float32": "float", "float64": "double"}
-
-#: Number types whose sequences are array.array and whose arrays are numpy.ndarray.
-TYPECODES = {
-    "float32": "f",
-    "float64": "d",
-    "int8": "b",
-    "uint8": "B",
-    "int16": "h",
-    "uint16": "H",
-    "int32": "i",
-    "uint32": "I",
-    "int64": "q",
-    "uint64": "Q",
-}
-
-_FLOAT_BOUNDS = {"float32": 3.402823466e38, "float64": 1.7976931348623157e308}
-_PYTHON_TYPES: dict[str, type] = {"bool": bool, "byte": bytes, "string": str}
-_PYTHON_TYPES |= {name: float if name in _FLOAT_BOUNDS else int for name in TYPECODES}
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,15 +70,13 @@ def make_field(name: str, desc: FieldDesc, message_class: Callable[[str], type])
     if kind in (Nodetype.BASE, Nodetype.NAME):
         return _single(name, kind, value, message_class)
     (element_kind, element), size = value
-    text = _element_text(element_kind, element)
-    if kind == Nodetype.ARRAY:
-        text = f"{text}[{size}]"
-    else:
-        text = f"sequence<{text}, {size}>" if size else f"sequence<{text}>"
+    text = element_text(element_kind, element)
+    limit = f", {size}" if size else ""
+    text = f"{text}[{size}]" if kind == Nodetype.ARRAY else f"sequence<{text}{limit}>"
     fixed = size if kind == Nodetype.ARRAY else None
     bound = size or None if kind == Nodetype.SEQUENCE else None
-    python_type, check = _element_check(name, element_kind, element, message_class)
-    check_list = _list_check(name, python_type, check, fixed, bound)
+    python_type, check = element_check(name, element_kind, element, message_class)
+    check_list = list_check(name, python_type, check, fixed, bound)
     if element_kind == Nodetype.BASE and element[0] in TYPECODES:
         if fixed is not None:
             return _number_array(name, text, element[0], fixed, check_list)
@@ -101,106 +84,8 @@ def make_field(name: str, desc: FieldDesc, message_class: Callable[[str], type])
     return _list_field(name, text, element_kind, element, python_type, fixed, check_list)
 
 
-def _element_text(kind: Nodetype, value: Any) -> str:
-    if kind == Nodetype.NAME:
-        package, _, name = value.split("/")
-        return f"{package}/{name}"
-    base, bound = value
-    if base == "string":
-        return f"string<{bound}>" if bound else "string"
-    return IDL_NAMES.get(base, base)
-
-
-def _element_check(
-    name: str, kind: Nodetype, value: Any, message_class: Callable[[str], type]
-) -> tuple[type, Callable[[Any], None]]:
-    if kind == Nodetype.NAME:
-        cls = message_class(value)
-
-        def check_message(item: Any) -> None:
-            assert isinstance(item, cls), (
-                f"The '{name}' field must be a sub message of type '{cls.__name__}'"
-            )
-
-        return cls, check_message
-    base, bound = value
-    return _PYTHON_TYPES[base], _base_check(name, base, bound)
-
-
-def _base_check(name: str, base: str, bound: int) -> Callable[[Any], None]:
-    if base in _FLOAT_BOUNDS:
-        largest = _FLOAT_BOUNDS[base]
-
-        def check_float(value: Any) -> None:
-            assert isinstance(value, float), f"The '{name}' field must be of type 'float'"
-            assert not (value < -largest or value > largest) or math.isinf(value), (
-                f"The '{name}' field must be a {IDL_NAMES[base]} in [{-largest}, {largest}]"
-            )
-
-        return check_float
-    if base in TYPECODES:
-        bits = np.iinfo(base)
-        low, high = int(bits.min), int(bits.max)
-
-        def check_int(value: Any) -> None:
-            assert isinstance(value, int), f"The '{name}' field must be of type 'int'"
-            assert low <= value <= high, (
-                f"The '{name}' field must be an integer in [{low}, {high}]"
-            )
-
-        return check_int
-    if base == "byte":
-
-        def check_byte(value: Any) -> None:
-            assert isinstance(value, bytes | bytearray) and len(value) == 1, (
-                f"The '{name}' field must be of type 'bytes' with length 1"
-            )
-
-        return check_byte
-    if base == "bool":
-
-        def check_bool(value: Any) -> None:
-            assert isinstance(value, bool), f"The '{name}' field must be of type 'bool'"
-
-        return check_bool
-
-    def check_string(value: Any) -> None:
-        kinds = (str, UserString) if bound else (str,)
-        assert isinstance(value, kinds), f"The '{name}' field must be of type 'str'"
-        assert not bound or len(value) <= bound, (
-            f"The '{name}' field must not be longer than {bound}"
-        )
-
-    return check_string
-
-
-def _list_check(
-    name: str,
-    python_type: type,
-    check: Callable[[Any], None],
-    fixed: int | None,
-    bound: int | None,
-) -> Callable[[Any], None]:
-    def check_list(value: Any) -> None:
-        assert isinstance(value, Sequence | Set | UserList) and not isinstance(
-            value, str | UserString
-        ), f"The '{name}' field must be a set or sequence of '{python_type.__name__}'"
-        assert fixed is None or len(value) == fixed, (
-            f"The '{name}' field must be a set or sequence with length {fixed}"
-        )
-        assert bound is None or len(value) <= bound, (
-            f"The '{name}' field must be a set or sequence with length <= {bound}"
-        )
-        for item in value:
-            check(item)
-
-    return check_list
-
-
-def _single(
-    name: str, kind: Nodetype, value: Any, message_class: Callable[[str], type]
-) -> Field:
-    python_type, check = _element_check(name, kind, value, message_class)
+def _single(name: str, kind: Nodetype, value: Any, message_class: Callable[[str], type]) -> Field:
+    python_type, check = element_check(name, kind, value, message_class)
 
     def assign(item: Any, checked: bool) -> object:
         if checked:
@@ -210,7 +95,7 @@ def _single(
     is_byte = python_type is bytes
     return Field(
         name,
-        _element_text(kind, value),
+        element_text(kind, value),
         (lambda: b"\x00") if is_byte else python_type,
         assign,
         from_wire=_int_to_byte if is_byte else None,
@@ -219,7 +104,7 @@ def _single(
 
 
 def _number_sequence(
-    name: str, text: str, base: str, bound: int | None, check_list: Callable[[Any], None]
+    name: str, text: str, base: str, bound: int | None, check_list: Check
 ) -> Field:
     typecode = TYPECODES[base]
 
@@ -253,9 +138,7 @@ def _number_sequence(
     )
 
 
-def _number_array(
-    name: str, text: str, base: str, size: int, check_list: Callable[[Any], None]
-) -> Field:
+def _number_array(name: str, text: str, base: str, size: int, check_list: Check) -> Field:
     dtype = np.dtype(base)
 
     def assign(value: Any, checked: bool) -> object:
@@ -295,7 +178,7 @@ def _list_field(
     value: Any,
     python_type: type,
     fixed: int | None,
-    check_list: Callable[[Any], None],
+    check_list: Check,
 ) -> Field:
     def assign(items: Any, checked: bool) -> object:
         if checked:

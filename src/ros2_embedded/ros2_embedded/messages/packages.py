@@ -6,6 +6,7 @@ The modules have no files. A class is made when its name is first looked up in a
 
 from __future__ import annotations
 
+from importlib.abc import Loader
 from importlib.machinery import ModuleSpec
 from typing import TYPE_CHECKING
 
@@ -46,7 +47,8 @@ def type_names(package: str, kind: str) -> list[str]:
         Names of the message or service types, without requests and responses.
     """
     prefix = f"{package}/{kind}/"
-    names = (name.removeprefix(prefix) for name in type_store().fielddefs if name.startswith(prefix))
+    known = type_store().fielddefs
+    names = (name.removeprefix(prefix) for name in known if name.startswith(prefix))
     if kind == "srv":
         return [name.removesuffix("_Request") for name in names if name.endswith("_Request")]
     return list(names)
@@ -66,7 +68,7 @@ def _modules_of_types(package: str, kind: str) -> dict[str, str]:
     }
 
 
-class _Loader:
+class _Loader(Loader):
     """Fills the modules that have no files."""
 
     def create_module(self, spec: ModuleSpec) -> None:
@@ -86,12 +88,11 @@ class _Loader:
         kind, _, type_module = rest.partition(".")
         if not kind:
             return
+        names = type_names(package, kind)
         if type_module:
             names = [_modules_of_types(package, kind)[type_module]]
-        else:
-            names = type_names(package, kind)
         if kind == "srv":
-            names = [*names, *(f"{name}_{half}" for name in names for half in ("Request", "Response"))]
+            names += [f"{name}_{half}" for name in names for half in ("Request", "Response")]
 
         def get_class(name: str) -> type:
             if name not in names:

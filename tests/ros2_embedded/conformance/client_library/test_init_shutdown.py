@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import pytest
 import rclpy
 from rclpy.context import Context
@@ -147,10 +149,8 @@ def test_create_node_of_default_context(default_context):
 def test_spin_ends_at_shutdown(default_context):
     node = rclpy.create_node("stopper")
     node.create_timer(0.01, rclpy.shutdown)
-    try:
+    with contextlib.suppress(ExternalShutdownException):
         rclpy.spin(node)
-    except ExternalShutdownException:
-        pass
     assert not default_context.ok()
     node.destroy_node()
 

@@ -55,9 +55,7 @@ def init(
     is_default = context is None or context is get_default_context()
     context = context or get_default_context()
     if signal_handler_options is None:
-        signal_handler_options = (
-            SignalHandlerOptions.ALL if is_default else SignalHandlerOptions.NO
-        )
+        signal_handler_options = SignalHandlerOptions.ALL if is_default else SignalHandlerOptions.NO
     context.init(args, domain_id=domain_id)
     install_signal_handlers(signal_handler_options)
 
@@ -83,9 +81,7 @@ def get_global_executor() -> Executor:
     return _global_executor
 
 
-def shutdown(
-    *, context: Context | None = None, uninstall_handlers: bool | None = None
-) -> None:
+def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
     """Leave the domain.
 
     Args:

@@ -15,6 +15,7 @@ _BEGIN, _END = "--ros-args", "--"
 _SWITCHES = {"rosout", "stdout", "external-lib"}
 #: Options that are read but change nothing here.
 _WITHOUT_EFFECT = {"--log-config-file", "--log-file-name", "-e", "--enclave"}
+_PARAMETER = re.compile(r"(?:([A-Za-z_]\w*):)?([A-Za-z_/][\w/]*(?:\.[A-Za-z_/][\w/]*)*)")
 _SEVERITIES = {"debug": 10, "info": 20, "warn": 30, "error": 40, "fatal": 50, "unset": 0}
 
 
@@ -69,9 +70,7 @@ class RosArguments:
         return found
 
 
-def remap_node(
-    rules: Iterable[Remapping], name: str, namespace: str
-) -> tuple[str, str]:
+def remap_node(rules: Iterable[Remapping], name: str, namespace: str) -> tuple[str, str]:
     """Apply ``__node`` and ``__ns`` rules.
 
     Args:
@@ -108,9 +107,9 @@ def remap_name(
         The new name; the first rule that fits decides.
     """
     for rule in rules:
-        if rule.node in ("", node) and rule.kind in ("", kind) and rule.source[:2] != "__":
-            if expand_name(rule.source, node, namespace) == full_name:
-                return expand_name(rule.target, node, namespace)
+        applies = rule.node in ("", node) and rule.kind in ("", kind) and rule.source[:2] != "__"
+        if applies and expand_name(rule.source, node, namespace) == full_name:
+            return expand_name(rule.target, node, namespace)
     return full_name
 
 
@@ -173,10 +172,10 @@ def parse_arguments(arguments: Sequence[str]) -> RosArguments:
 
 def _read_parameter(parsed: RosArguments, text: str) -> None:
     target, assigned, value = text.partition(":=")
-    node, colon, name = target.rpartition(":")
-    if not assigned or not name or (colon and not node):
+    match = _PARAMETER.fullmatch(target)
+    if not assigned or match is None:
         raise RCLInvalidROSArgsError(f"Couldn't parse parameter override rule: '-p {text}'")
-    parsed.parameters.setdefault(node or "/**", {})[name] = parse_value(value)
+    parsed.parameters.setdefault(match[1] or "/**", {})[match[2]] = parse_value(value)
 
 
 def _read_parameter_file(parsed: RosArguments, path: str) -> None:
@@ -186,7 +185,7 @@ def _read_parameter_file(parsed: RosArguments, path: str) -> None:
 
 def _read_remapping(parsed: RosArguments, text: str) -> None:
     left, assigned, target = text.partition(":=")
-    match = re.fullmatch(r"(?:(\w+):)?(?:(rostopic|rosservice)://)?(\S+)", left)
+    match = re.fullmatch(r"(?:(\w+):(?!//))?(?:(rostopic|rosservice)://)?(\S+)", left)
     if not assigned or not target or match is None:
         raise RCLInvalidROSArgsError(f"Couldn't parse remap rule: '-r {text}'")
     node, scheme, source = match.groups(default="")

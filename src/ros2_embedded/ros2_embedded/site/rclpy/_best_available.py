@@ -5,9 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ros2_embedded.dds.graph import Endpoint
-from ros2_embedded.dds.qos import profile_of
-
 from rclpy.duration import Duration
 from rclpy.qos import (
     DeadlineBestAvailable,
@@ -16,6 +13,9 @@ from rclpy.qos import (
     QoSProfile,
     ReliabilityPolicy,
 )
+
+from ros2_embedded.dds.graph import Endpoint
+from ros2_embedded.dds.qos import profile_of
 
 
 def resolve_best_available(

@@ -11,7 +11,7 @@ from rclpy.callback_groups import CallbackGroup
 from rclpy.exceptions import InvalidHandle
 
 if TYPE_CHECKING:
-    from rclpy.executors import Executor
+    from rclpy._work_finder import WorkFinder
 
 
 class Entity:
@@ -35,7 +35,7 @@ class Entity:
         """The DDS condition to wait for, None if there is none."""
         return None
 
-    def take(self, executor: Executor | None = None) -> Callable[[], Awaitable[Any]] | None:
+    def take(self, executor: WorkFinder | None = None) -> Callable[[], Awaitable[Any]] | None:
         """Take one piece of work.
 
         Args:

@@ -5,8 +5,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from ros2_embedded.dds.endpoints import Reader, Writer
-
 from rclpy._arguments import Remapping, remap_name
 from rclpy._names import expand_name
 from rclpy._node_graph import NodeGraph
@@ -22,6 +20,8 @@ from rclpy.subscription import Subscription
 from rclpy.timer import Rate, Timer
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from rclpy.validate_topic_name import validate_topic_name
+
+from ros2_embedded.dds.endpoints import Reader, Writer
 
 
 class NodeBase(NodeGraph, NodeParameterSetting):

@@ -4,22 +4,20 @@
 from __future__ import annotations
 
 import time
-from collections import defaultdict
-from collections.abc import Iterable
 
-from ros2_embedded.dds.graph import Endpoint, Graph, NodeEndpoints
-from ros2_embedded.dds.qos import profile_of, user_data_of
-
-from rclpy._graph_names import service_of, topic_of
+from rclpy._graph_listing import (
+    NamesAndTypes,
+    endpoint_info,
+    select,
+    service_names_and_types,
+    topic_names_and_types,
+)
 from rclpy._names import expand_name
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError
-from rclpy.duration import Duration
-from rclpy.qos import QoSProfile
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
-from rclpy.type_hash import TypeHash
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
-NamesAndTypes = list[tuple[str, list[str]]]
+from ros2_embedded.dds.graph import Endpoint, Graph, NodeEndpoints
 
 _POLL_SECONDS = 0.01
 
@@ -100,7 +98,7 @@ class NodeGraph:
             Name and types of each.
         """
         endpoints = [*self._graph.readers(), *self._graph.writers()]
-        return _topics(endpoints, no_demangle)
+        return topic_names_and_types(endpoints, no_demangle)
 
     def get_service_names_and_types(self) -> NamesAndTypes:
         """List the services.
@@ -108,7 +106,9 @@ class NodeGraph:
         Returns:
             Name and types of each.
         """
-        return _services([*self._graph.readers(), *self._graph.writers()], ("rq", "rr"))
+        return service_names_and_types(
+            [*self._graph.readers(), *self._graph.writers()], ("rq", "rr")
+        )
 
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
@@ -127,7 +127,7 @@ class NodeGraph:
             NodeNameNonExistentError: There is no such node.
         """
         node = self._endpoints_of(node_name, node_namespace)
-        return _topics(_select(self._graph.writers(), node.writers), no_demangle)
+        return topic_names_and_types(select(self._graph.writers(), node.writers), no_demangle)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
@@ -146,7 +146,7 @@ class NodeGraph:
             NodeNameNonExistentError: There is no such node.
         """
         node = self._endpoints_of(node_name, node_namespace)
-        return _topics(_select(self._graph.readers(), node.readers), no_demangle)
+        return topic_names_and_types(select(self._graph.readers(), node.readers), no_demangle)
 
     def get_service_names_and_types_by_node(
         self, node_name: str, node_namespace: str
@@ -164,7 +164,7 @@ class NodeGraph:
             NodeNameNonExistentError: There is no such node.
         """
         node = self._endpoints_of(node_name, node_namespace)
-        return _services(_select(self._graph.readers(), node.readers), ("rq",))
+        return service_names_and_types(select(self._graph.readers(), node.readers), ("rq",))
 
     def get_client_names_and_types_by_node(
         self, node_name: str, node_namespace: str
@@ -182,7 +182,7 @@ class NodeGraph:
             NodeNameNonExistentError: There is no such node.
         """
         node = self._endpoints_of(node_name, node_namespace)
-        return _services(_select(self._graph.readers(), node.readers), ("rr",))
+        return service_names_and_types(select(self._graph.readers(), node.readers), ("rr",))
 
     def count_publishers(self, topic_name: str) -> int:
         """Count the publishers of a topic.
@@ -285,57 +285,7 @@ class NodeGraph:
         topic = topic_name if no_mangle else f"rt{self._full_name(topic_name)}"
         owners = self._graph.node_of_endpoints()
         return [
-            _info(endpoint, owners.get(endpoint.gid), kind, no_mangle)
+            endpoint_info(endpoint, owners.get(endpoint.gid), kind, no_mangle)
             for endpoint in endpoints
             if endpoint.topic == topic
         ]
-
-
-def _info(
-    endpoint: Endpoint,
-    owner: tuple[str, str] | None,
-    kind: TopicEndpointTypeEnum,
-    no_mangle: bool,
-) -> TopicEndpointInfo:
-    namespace, name = owner or ("_NODE_NAMESPACE_UNKNOWN_", "_NODE_NAME_UNKNOWN_")
-    policies = profile_of(endpoint.qos)
-    durations = ("lifespan", "deadline", "liveliness_lease_duration")
-    profile = {
-        key: Duration(nanoseconds=value) if key in durations else value
-        for key, value in policies.items()
-    }
-    hash_text = user_data_of(endpoint.qos).get("typehash", "")
-    type_name = endpoint.type_name
-    return TopicEndpointInfo(
-        node_name=name,
-        node_namespace=namespace,
-        topic_type=type_name if no_mangle else topic_of(endpoint.topic, type_name)[1],
-        topic_type_hash=TypeHash.from_text(hash_text),
-        endpoint_type=kind,
-        endpoint_gid=list(endpoint.gid),
-        qos_profile=QoSProfile(**profile),
-    )
-
-
-def _select(endpoints: list[Endpoint], gids: list[bytes]) -> list[Endpoint]:
-    return [endpoint for endpoint in endpoints if endpoint.gid in gids]
-
-
-def _topics(endpoints: Iterable[Endpoint], no_demangle: bool) -> NamesAndTypes:
-    types: dict[str, set[str]] = defaultdict(set)
-    for endpoint in endpoints:
-        name, kind = endpoint.topic, endpoint.type_name
-        if not no_demangle:
-            name, kind = topic_of(name, kind)
-        if name:
-            types[name].add(kind)
-    return [(name, sorted(types[name])) for name in sorted(types)]
-
-
-def _services(endpoints: Iterable[Endpoint], prefixes: tuple[str, ...]) -> NamesAndTypes:
-    types: dict[str, set[str]] = defaultdict(set)
-    for endpoint in endpoints:
-        name, kind = service_of(endpoint.topic, endpoint.type_name, prefixes)
-        if name:
-            types[name].add(kind)
-    return [(name, sorted(types[name])) for name in sorted(types)]

@@ -13,7 +13,6 @@ from rcl_interfaces.msg import (
     SetParametersResult,
 )
 from rcl_interfaces.msg import Parameter as ParameterMsg
-
 from rclpy._node_parameters import (
     NodeParameters,
     OnSetCallback,

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParametersResult
-
 from rclpy._parameter_checks import RELATIVE_TOLERANCE
 from rclpy._parameter_declaration import read_declaration
 from rclpy.clock import Clock

@@ -7,7 +7,6 @@ import math
 from typing import Any
 
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
-
 from rclpy.parameter import Parameter
 
 #: Relative tolerance of the limits and steps of floating-point parameters.

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType, ParameterValue
-
 from rclpy.parameter import Parameter
 from rclpy.validate_parameter_name import validate_parameter_name
 
@@ -60,8 +59,7 @@ def read_declaration(
         _set_type(name, value, descriptor)
         value = None
     elif not descriptor.dynamic_typing:
-        is_message = isinstance(value, ParameterValue)
-        kind = value.type if is_message else Parameter.Type.from_parameter_value(value).value
+        kind = _type_of(value)
         if kind == ParameterType.PARAMETER_NOT_SET:
             raise ValueError(
                 "Cannot declare a statically typed parameter with default value of type "
@@ -80,3 +78,9 @@ def _set_type(name: str, kind: Parameter.Type, descriptor: ParameterDescriptor) 
             "`dynamic_typing=True` is not allowed when the parameter type is provided"
         )
     descriptor.type = kind.value
+
+
+def _type_of(value: Any) -> int:
+    if isinstance(value, ParameterValue):
+        return int(value.type)
+    return int(Parameter.Type.from_parameter_value(value).value)

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-
 from rclpy._rclpy_pybind11 import RCLInvalidROSArgsError
 
 #: Parameter values by name.
@@ -36,7 +35,10 @@ def parse_value(text: str) -> Any:
     Raises:
         RCLInvalidROSArgsError: The text is not such a value.
     """
-    return _value(_compose(text, text), text)
+    node = _compose(text, text)
+    if node is None:
+        raise RCLInvalidROSArgsError("a parameter has no value")
+    return _value(node, text)
 
 
 def parse_file(path: str) -> dict[str, Values]:
@@ -56,18 +58,19 @@ def parse_file(path: str) -> dict[str, Values]:
     except (OSError, UnicodeDecodeError) as error:
         raise RCLInvalidROSArgsError(f"cannot read parameter file {path!r}: {error}") from error
     nodes: dict[str, Values] = {}
-    _collect(_compose(text, path), "", path, nodes)
+    root = _compose(text, path)
+    if root is not None:
+        _collect(root, "", path, nodes)
     return nodes
 
 
-def _compose(text: str, where: str) -> yaml.Node:
+def _compose(text: str, where: str) -> yaml.Node | None:
     try:
-        node = yaml.compose(text, Loader=yaml.SafeLoader)
+        if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text)):
+            raise RCLInvalidROSArgsError(f"{where}: aliases are not supported")
+        return yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.YAMLError as error:
         raise RCLInvalidROSArgsError(f"{where}: {error}") from error
-    if node is None:
-        raise RCLInvalidROSArgsError(f"{where!r}: no value")
-    return node
 
 
 def _collect(node: yaml.Node, name: str, where: str, nodes: dict[str, Values]) -> None:

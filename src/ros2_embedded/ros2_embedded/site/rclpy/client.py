@@ -9,10 +9,6 @@ import time
 from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING, Any
 
-from ros2_embedded.dds.endpoints import Reader, Writer
-from ros2_embedded.dds.library import DdsError
-from ros2_embedded.messages.codec import deserialize, serialize
-
 from rclpy import _request_id
 from rclpy._entity import Entity
 from rclpy._rclpy_pybind11 import RCLError
@@ -22,8 +18,12 @@ from rclpy.context import Context
 from rclpy.qos import QoSProfile
 from rclpy.task import Future
 
+from ros2_embedded.dds.endpoints import Reader, Writer
+from ros2_embedded.dds.library import DdsError
+from ros2_embedded.messages.codec import deserialize, serialize
+
 if TYPE_CHECKING:
-    from rclpy.executors import Executor
+    from rclpy._work_finder import WorkFinder
 
 _SERVICE_POLL = 0.01
 
@@ -191,7 +191,7 @@ class Client(Entity):
             time.sleep(_SERVICE_POLL)
         return ready
 
-    def take(self, executor: Executor | None = None) -> Callable[[], Awaitable[Any]] | None:
+    def take(self, executor: WorkFinder | None = None) -> Callable[[], Awaitable[Any]] | None:
         """Take the next response, if it is for this client."""
         if self._closed:
             return None

@@ -184,6 +184,7 @@ class Context:
         return self._participant.domain_id
 
     def __enter__(self) -> Context:
+        """Initialise with the command line of the program."""
         self.init()
         return self
 
@@ -193,6 +194,7 @@ class Context:
         exc_val: BaseException | None,
         exc_tb: TracebackType | None,
     ) -> None:
+        """Shut down."""
         self.try_shutdown()
 
     def _join(self, domain_id: int) -> None:

@@ -6,7 +6,6 @@ from __future__ import annotations
 from functools import total_ordering
 
 import builtin_interfaces.msg
-
 from rclpy.constants import S_TO_NS
 
 _LIMIT = 2**63
@@ -37,17 +36,21 @@ class Duration:
         return self._nanoseconds
 
     def __repr__(self) -> str:
+        """Show it as an expression."""
         return f"Duration(nanoseconds={self.nanoseconds})"
 
     def __str__(self) -> str:
+        """Show it as text."""
         return "Infinite" if self == Infinite else f"{self.nanoseconds} nanoseconds"
 
     def __eq__(self, other: object) -> bool:
+        """Compare the values."""
         if isinstance(other, Duration):
             return self.nanoseconds == other.nanoseconds
         return NotImplemented
 
     def __lt__(self, other: object) -> bool:
+        """Tell whether it is less."""
         if isinstance(other, Duration):
             return self.nanoseconds < other.nanoseconds
         return NotImplemented

@@ -5,10 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
-
-from ros2_embedded.dds import status
-from ros2_embedded.dds.endpoints import Reader, Writer
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from rclpy._entity import Entity, call_or_await
 from rclpy._rclpy_pybind11 import UnsupportedEventTypeError as UnsupportedEventTypeError
@@ -16,8 +13,11 @@ from rclpy.callback_groups import CallbackGroup
 from rclpy.logging import get_logger
 from rclpy.qos import QoSPolicyKind, qos_policy_name_from_kind
 
+from ros2_embedded.dds import status
+from ros2_embedded.dds.endpoints import Reader, Writer
+
 if TYPE_CHECKING:
-    from rclpy.executors import Executor
+    from rclpy._work_finder import WorkFinder
 
 #: ROS policies by their numbers in DDS.
 _POLICY_KINDS = {
@@ -101,7 +101,7 @@ class EventHandler(Entity):
         """The endpoint, which wakes for the events it watches."""
         return None if self._closed else self._endpoint.handle
 
-    def take(self, executor: Executor | None = None) -> Callable[[], Awaitable[Any]] | None:
+    def take(self, executor: WorkFinder | None = None) -> Callable[[], Awaitable[Any]] | None:
         """Take the event, if it has happened."""
         if self._closed:
             return None
@@ -119,9 +119,7 @@ class EventHandler(Entity):
 def _describe(found: Any) -> Any:
     if hasattr(found, "last_policy_id"):
         kind = _POLICY_KINDS.get(found.last_policy_id, QoSPolicyKind.INVALID)
-        return QoSRequestedIncompatibleQoSInfo(
-            found.total_count, found.total_count_change, kind
-        )
+        return QoSRequestedIncompatibleQoSInfo(found.total_count, found.total_count_change, kind)
     if hasattr(found, "alive_count"):
         return QoSLivelinessChangedInfo(
             found.alive_count,
@@ -142,7 +140,7 @@ def _describe(found: Any) -> Any:
 class _EventCallbacks:
     """Callbacks for the events of one endpoint."""
 
-    _kinds: dict[str, status.StatusKind]
+    _kinds: ClassVar[dict[str, status.StatusKind]]
     _incompatible_text: str
 
     def __init__(self, use_default_callbacks: bool, callbacks: dict[str, Any]) -> None:
@@ -195,7 +193,7 @@ class _EventCallbacks:
 class SubscriptionEventCallbacks(_EventCallbacks):
     """Callbacks for the events of a subscription."""
 
-    _kinds = {
+    _kinds: ClassVar[dict[str, status.StatusKind]] = {
         "deadline": status.REQUESTED_DEADLINE_MISSED,
         "incompatible_qos": status.REQUESTED_INCOMPATIBLE_QOS,
         "liveliness": status.LIVELINESS_CHANGED,
@@ -245,7 +243,7 @@ class SubscriptionEventCallbacks(_EventCallbacks):
 class PublisherEventCallbacks(_EventCallbacks):
     """Callbacks for the events of a publisher."""
 
-    _kinds = {
+    _kinds: ClassVar[dict[str, status.StatusKind]] = {
         "deadline": status.OFFERED_DEADLINE_MISSED,
         "liveliness": status.LIVELINESS_LOST,
         "incompatible_qos": status.OFFERED_INCOMPATIBLE_QOS,

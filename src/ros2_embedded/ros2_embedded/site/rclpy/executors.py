@@ -10,9 +10,9 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from rclpy._entity import call_or_await as await_or_execute
-from rclpy._executor import (
+from rclpy._executor import Executor
+from rclpy._work_finder import (
     ConditionReachedException,
-    Executor,
     ExternalShutdownException,
     ShutdownException,
     TimeoutException,
@@ -58,9 +58,7 @@ class SingleThreadedExecutor(Executor):
 class MultiThreadedExecutor(Executor):
     """Runs callbacks in a pool of threads, in parallel as far as their groups allow."""
 
-    def __init__(
-        self, num_threads: int | None = None, *, context: Context | None = None
-    ) -> None:
+    def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         """Create an executor without nodes.
 
         Args:

@@ -6,15 +6,15 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING, Any
 
-from ros2_embedded.dds.waitset import Guard
-
 from rclpy._entity import Entity, call_or_await
 from rclpy.callback_groups import CallbackGroup
 from rclpy.context import Context
 from rclpy.utilities import get_default_context
 
+from ros2_embedded.dds.waitset import Guard
+
 if TYPE_CHECKING:
-    from rclpy.executors import Executor
+    from rclpy._work_finder import WorkFinder
 
 
 class GuardCondition(Entity):
@@ -55,7 +55,7 @@ class GuardCondition(Entity):
         self._check_handle()
         self._guard.trigger()
 
-    def take(self, executor: Executor | None = None) -> Callable[[], Awaitable[Any]] | None:
+    def take(self, executor: WorkFinder | None = None) -> Callable[[], Awaitable[Any]] | None:
         """Take the trigger."""
         if not self._guard.take() or self.callback is None:
             return None

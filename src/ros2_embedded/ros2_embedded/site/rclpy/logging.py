@@ -44,9 +44,7 @@ def clear_config() -> None:
     log_output.clear()
 
 
-def set_logger_level(
-    name: str, level: int | LoggingSeverity, detailed_error: bool = False
-) -> None:
+def set_logger_level(name: str, level: int | LoggingSeverity, detailed_error: bool = False) -> None:
     """Set the lowest severity that a logger logs.
 
     Args:

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent
-
 from rclpy._arguments import RosArguments, parse_arguments, remap_node
 from rclpy._node_entities import NodeEntities
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError as NodeNameNonExistentError
@@ -104,7 +103,8 @@ class Node(NodeEntities):
         self._executor_reference: weakref.ref[Executor] | None = None
         self._graph = self._context.graph
         self._logger = get_logger(full_name.removeprefix("/").replace("/", "."))
-        self._clock = ROSClock()
+        self._ros_clock = ROSClock()
+        self._clock = self._ros_clock
         self._rosout: Rosout | None = None
         with self._graph.batch():
             self._graph.add_node(self._full_name_pair)
@@ -188,7 +188,7 @@ class Node(NodeEntities):
         Returns:
             The clock.
         """
-        return self._clock
+        return self._ros_clock
 
     def get_logger(self) -> RcutilsLogger:
         """Get the logger of the node.
@@ -212,14 +212,15 @@ class Node(NodeEntities):
     def destroy_node(self) -> None:
         """Destroy the node and all its entities; a second time does nothing."""
         self._parameter_event_publisher = None
-        for entities in (
+        everything: tuple[list[Any], ...] = (
             self._publishers,
             self._subscriptions,
             self._clients,
             self._services,
             self._timers,
             self._guards,
-        ):
+        )
+        for entities in everything:
             for entity in tuple(entities):
                 entity.destroy()
             entities.clear()

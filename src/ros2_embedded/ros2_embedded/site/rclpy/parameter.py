@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import array
 from enum import Enum
+from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 import yaml
@@ -107,7 +108,7 @@ class Parameter(Generic[T]):
                 return parameter_value is None
             if self.name in _SCALAR_TYPES:
                 return isinstance(parameter_value, _SCALAR_TYPES[self.name])
-            sequences: tuple[type, ...] = (list, tuple)
+            sequences: tuple[type[Any], ...] = (list, tuple)
             if self.name in ("INTEGER_ARRAY", "DOUBLE_ARRAY"):
                 sequences = (list, tuple, array.array)
             element = _ELEMENT_TYPES[self.name]
@@ -198,7 +199,7 @@ _ELEMENTS: tuple[tuple[type, str], ...] = (
     *((python_type, f"{name}_ARRAY") for python_type, name in _SCALARS),
 )
 _SCALAR_TYPES = {name: python_type for python_type, name in _SCALARS}
-_ELEMENT_TYPES = {name: python_type for python_type, name in _ELEMENTS}
+_ELEMENT_TYPES: dict[str, Any] = {name: python_type for python_type, name in _ELEMENTS}
 
 
 def _message_value(value: ParameterValue) -> Any:
@@ -270,8 +271,7 @@ def parameter_dict_from_yaml_file(
     Raises:
         RuntimeError: The file has no parameters of such nodes or is no parameter file.
     """
-    with open(parameter_file, encoding="utf-8") as file:
-        content = yaml.safe_load(file)
+    content = yaml.safe_load(Path(parameter_file).read_text(encoding="utf-8"))
     keys = ["/**"] if use_wildcard and "/**" in content else []
     if missing := [node for node in target_nodes or () if node not in content]:
         raise RuntimeError(

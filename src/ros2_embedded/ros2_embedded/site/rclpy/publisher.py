@@ -5,16 +5,16 @@ from __future__ import annotations
 
 from typing import Any, Generic, TypeVar
 
-from ros2_embedded.dds.endpoints import Writer
-from ros2_embedded.dds.library import INFINITE, DdsError
-from ros2_embedded.messages.codec import serialize
-
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.event_handler import EventHandler, PublisherEventCallbacks
 from rclpy.exceptions import InvalidHandle
 from rclpy.qos import QoSProfile
+
+from ros2_embedded.dds.endpoints import Writer
+from ros2_embedded.dds.library import INFINITE, DdsError
+from ros2_embedded.messages.codec import serialize
 
 MsgType = TypeVar("MsgType")
 

@@ -4,19 +4,48 @@
 from __future__ import annotations
 
 import warnings
-from enum import Enum, IntEnum
+from enum import Enum
 from typing import Any
 
+from rclpy._qos_compatibility import QoSCompatibility, qos_check_compatible
 from rclpy._qos_policies import (
     DurabilityPolicy,
     HistoryPolicy,
     LivelinessPolicy,
+    QoSPolicyEnum,
+    QoSPolicyKind,
     ReliabilityPolicy,
+    qos_policy_name_from_kind,
 )
-from rclpy._qos_policies import QoSPolicyEnum as QoSPolicyEnum
-from rclpy._qos_policies import QoSPolicyKind as QoSPolicyKind
-from rclpy._qos_policies import qos_policy_name_from_kind as qos_policy_name_from_kind
 from rclpy.duration import Duration
+
+__all__ = [
+    "DurabilityPolicy",
+    "HistoryPolicy",
+    "InvalidQoSProfileException",
+    "LivelinessPolicy",
+    "QoSCompatibility",
+    "QoSDurabilityPolicy",
+    "QoSHistoryPolicy",
+    "QoSLivelinessPolicy",
+    "QoSPolicyEnum",
+    "QoSPolicyKind",
+    "QoSPresetProfiles",
+    "QoSProfile",
+    "QoSReliabilityPolicy",
+    "ReliabilityPolicy",
+    "qos_check_compatible",
+    "qos_policy_name_from_kind",
+    "qos_profile_action_status_default",
+    "qos_profile_best_available",
+    "qos_profile_default",
+    "qos_profile_parameter_events",
+    "qos_profile_parameters",
+    "qos_profile_sensor_data",
+    "qos_profile_services_default",
+    "qos_profile_system_default",
+    "qos_profile_unknown",
+]
 
 QoSHistoryPolicy = HistoryPolicy
 QoSReliabilityPolicy = ReliabilityPolicy
@@ -40,7 +69,8 @@ class InvalidQoSProfileException(Exception):
 class QoSProfile:
     """A set of quality-of-service policies."""
 
-    __slots__ = [
+    # In the order in which a profile is shown.
+    __slots__ = [  # noqa: RUF023
         "_history",
         "_depth",
         "_reliability",
@@ -73,9 +103,7 @@ class QoSProfile:
             raise InvalidQoSProfileException("History and/or depth settings are required.")
         self.history = kwargs.get("history", HistoryPolicy.KEEP_LAST)
         if self.history == HistoryPolicy.KEEP_LAST and "depth" not in kwargs:
-            raise InvalidQoSProfileException(
-                "History set to KEEP_LAST without a depth setting."
-            )
+            raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
         self.depth = kwargs.get("depth", 10)
         self.reliability = kwargs.get("reliability", ReliabilityPolicy.RELIABLE)
         self.durability = kwargs.get("durability", DurabilityPolicy.VOLATILE)
@@ -83,9 +111,7 @@ class QoSProfile:
         self.deadline = kwargs.get("deadline", _UNSPECIFIED)
         self.liveliness = kwargs.get("liveliness", LivelinessPolicy.SYSTEM_DEFAULT)
         self.liveliness_lease_duration = kwargs.get("liveliness_lease_duration", _UNSPECIFIED)
-        self.avoid_ros_namespace_conventions = kwargs.get(
-            "avoid_ros_namespace_conventions", False
-        )
+        self.avoid_ros_namespace_conventions = kwargs.get("avoid_ros_namespace_conventions", False)
 
     @property
     def history(self) -> HistoryPolicy:
@@ -184,11 +210,13 @@ class QoSProfile:
         self._avoid_ros_namespace_conventions = value
 
     def __eq__(self, other: object) -> bool:
+        """Compare the values."""
         if not isinstance(other, QoSProfile):
             return False
         return all(getattr(self, slot) == getattr(other, slot) for slot in self.__slots__)
 
     def __str__(self) -> str:
+        """Show it as text."""
         values = (f"{slot[1:]}={getattr(self, slot)}" for slot in self.__slots__)
         return f"{type(self).__name__}({', '.join(values)})"
 
@@ -219,9 +247,7 @@ qos_profile_best_available = QoSProfile(
     liveliness=LivelinessPolicy.BEST_AVAILABLE,
     liveliness_lease_duration=LivelinessLeaseDurationeBestAvailable,
 )
-qos_profile_action_status_default = QoSProfile(
-    depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL
-)
+qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class QoSPresetProfiles(Enum):
@@ -261,61 +287,3 @@ class QoSPresetProfiles(Enum):
         """
         profile: QoSProfile = cls[name.upper()].value
         return profile
-
-
-class QoSCompatibility(IntEnum):
-    """Whether a publisher and a subscription can talk."""
-
-    OK = 0
-    WARNING = 1
-    ERROR = 2
-
-
-def qos_check_compatible(
-    publisher_qos: QoSProfile, subscription_qos: QoSProfile
-) -> tuple[QoSCompatibility, str]:
-    """Tell whether a publisher can serve a subscription.
-
-    Args:
-        publisher_qos: What the publisher offers.
-        subscription_qos: What the subscription asks for.
-
-    Returns:
-        The answer, and the reason if it is not ``OK``.
-    """
-    offered, asked = publisher_qos, subscription_qos
-    problems = []
-    if (offered.reliability, asked.reliability) == (
-        ReliabilityPolicy.BEST_EFFORT,
-        ReliabilityPolicy.RELIABLE,
-    ):
-        problems.append("ERROR: Best effort publisher and reliable subscription;")
-    if (offered.durability, asked.durability) == (
-        DurabilityPolicy.VOLATILE,
-        DurabilityPolicy.TRANSIENT_LOCAL,
-    ):
-        problems.append("ERROR: Volatile publisher and transient local subscription;")
-    if asked.deadline != _UNSPECIFIED and (
-        offered.deadline == _UNSPECIFIED or offered.deadline > asked.deadline
-    ):
-        problems.append("ERROR: Subscription expects a deadline that the publisher does not keep;")
-    if asked.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC != offered.liveliness:
-        problems.append("ERROR: Publisher's liveliness is not manual by topic;")
-    if asked.liveliness_lease_duration != _UNSPECIFIED and (
-        offered.liveliness_lease_duration == _UNSPECIFIED
-        or offered.liveliness_lease_duration > asked.liveliness_lease_duration
-    ):
-        problems.append("ERROR: Publisher's liveliness lease duration is too long;")
-    if problems:
-        return QoSCompatibility.ERROR, "".join(problems)
-    undecided = [
-        policy.name
-        for profile in (offered, asked)
-        for policy in (profile.reliability, profile.durability)
-        if policy in (0, 3, 4)
-    ]
-    if undecided:
-        return QoSCompatibility.WARNING, "WARNING: policies are left to the middleware;"
-    return QoSCompatibility.OK, ""
-
-

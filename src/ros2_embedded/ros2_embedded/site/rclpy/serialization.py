@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from ros2_embedded.messages.codec import deserialize, serialize
-
 from rclpy._rclpy_pybind11 import RMWError
 from rclpy.type_support import check_for_type_support
+
+from ros2_embedded.messages.codec import deserialize, serialize
 
 
 def serialize_message(message: Any) -> bytes:

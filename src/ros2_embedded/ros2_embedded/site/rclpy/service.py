@@ -7,18 +7,18 @@ import time
 from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING, Any
 
-from ros2_embedded.dds.endpoints import Reader, Writer
-from ros2_embedded.dds.library import DdsError
-from ros2_embedded.messages.codec import deserialize, serialize
-
 from rclpy import _request_id
 from rclpy._entity import Entity, call_or_await
 from rclpy._request_id import RequestId
 from rclpy.callback_groups import CallbackGroup
 from rclpy.qos import QoSProfile
 
+from ros2_embedded.dds.endpoints import Reader, Writer
+from ros2_embedded.dds.library import DdsError
+from ros2_embedded.messages.codec import deserialize, serialize
+
 if TYPE_CHECKING:
-    from rclpy.executors import Executor
+    from rclpy._work_finder import WorkFinder
 
 # A client may be known by its request before its reader of responses is.
 _CLIENT_WAIT = 0.1
@@ -97,7 +97,7 @@ class Service(Entity):
         except DdsError:
             return  # The context was shut down; nobody waits for the answer any more.
 
-    def take(self, executor: Executor | None = None) -> Callable[[], Awaitable[Any]] | None:
+    def take(self, executor: WorkFinder | None = None) -> Callable[[], Awaitable[Any]] | None:
         """Take the next request for the callback."""
         if self._closed:
             return None

@@ -9,18 +9,18 @@ from collections.abc import Awaitable, Callable
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ros2_embedded.dds.endpoints import Reader
-from ros2_embedded.dds.library import DdsError
-from ros2_embedded.messages.codec import deserialize
-
 from rclpy._entity import Entity, call_or_await
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.callback_groups import CallbackGroup
 from rclpy.event_handler import EventHandler, SubscriptionEventCallbacks
 from rclpy.qos import QoSProfile
 
+from ros2_embedded.dds.endpoints import Reader
+from ros2_embedded.dds.library import DdsError
+from ros2_embedded.messages.codec import deserialize
+
 if TYPE_CHECKING:
-    from rclpy.executors import Executor
+    from rclpy._work_finder import WorkFinder
 
 MsgType = TypeVar("MsgType")
 
@@ -147,7 +147,7 @@ class Subscription(Entity, Generic[MsgType]):
             "reception_sequence_number": None,
         }
 
-    def take(self, executor: Executor | None = None) -> Callable[[], Awaitable[Any]] | None:
+    def take(self, executor: WorkFinder | None = None) -> Callable[[], Awaitable[Any]] | None:
         """Take the next message for the callback."""
         if self._closed or (taken := self.take_message()) is None:
             return None

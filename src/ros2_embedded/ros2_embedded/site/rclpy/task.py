@@ -9,10 +9,10 @@ import threading
 import warnings
 import weakref
 from collections.abc import Callable, Coroutine, Generator
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 if TYPE_CHECKING:
-    from rclpy.executors import Executor
+    from rclpy._work_finder import WorkFinder
 
 T = TypeVar("T")
 
@@ -20,7 +20,10 @@ T = TypeVar("T")
 class Future(Generic[T]):
     """A result that is there later."""
 
-    def __init__(self, *, executor: Executor | None = None) -> None:
+    #: Changes whenever some future is done; then awaiting coroutines may go on.
+    completions: ClassVar[int] = 0
+
+    def __init__(self, *, executor: WorkFinder | None = None) -> None:
         """Create a future without result.
 
         Args:
@@ -33,10 +36,11 @@ class Future(Generic[T]):
         self._exception_fetched = False
         self._callbacks: list[Callable[[Future[T]], object]] = []
         self._lock = threading.Lock()
-        self._executor: weakref.ref[Executor] | None = None
+        self._executor: weakref.ref[WorkFinder] | None = None
         self._set_executor(executor)
 
     def __del__(self) -> None:
+        """Report an exception that nobody asked for."""
         if self._exception is not None and not self._exception_fetched:
             print(
                 f"The following exception was never retrieved: {self._exception}",
@@ -44,6 +48,7 @@ class Future(Generic[T]):
             )
 
     def __await__(self) -> Generator[None, None, T | None]:
+        """Wait for the result."""
         while not self._done:
             yield
         return self.result()
@@ -135,7 +140,7 @@ class Future(Generic[T]):
         else:
             callback(self)
 
-    def _set_executor(self, executor: Executor | None) -> None:
+    def _set_executor(self, executor: WorkFinder | None) -> None:
         with self._lock:
             self._executor = None if executor is None else weakref.ref(executor)
 
@@ -143,6 +148,9 @@ class Future(Generic[T]):
         with self._lock:
             executor = self._executor() if self._executor else None
             callbacks, self._callbacks = self._callbacks, []
+        Future.completions += 1
+        if executor is not None:
+            executor.wake()
         for callback in callbacks:
             if executor is not None:
                 executor.create_task(callback, self)
@@ -162,7 +170,7 @@ class Task(Future[T]):
         handler: Callable[..., Any],
         args: tuple[Any, ...] | list[Any] | None = None,
         kwargs: dict[str, Any] | None = None,
-        executor: Executor | None = None,
+        executor: WorkFinder | None = None,
     ) -> None:
         """Prepare a task; only executors do so.
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from operator import eq, ge, gt, le, lt
-from typing import overload
+from typing import Any, cast, overload
 
 import builtin_interfaces.msg
-
 from rclpy.clock_type import ClockType
 from rclpy.constants import S_TO_NS
 from rclpy.duration import Duration
@@ -70,14 +69,14 @@ class Time:
         return divmod(self.nanoseconds, S_TO_NS)
 
     def __repr__(self) -> str:
+        """Show it as an expression."""
         return f"Time(nanoseconds={self.nanoseconds}, clock_type={self.clock_type.name})"
 
     def __add__(self, other: Duration) -> Time:
+        """Add a duration."""
         if not isinstance(other, Duration):
             return NotImplemented
-        return Time(
-            nanoseconds=self.nanoseconds + other.nanoseconds, clock_type=self.clock_type
-        )
+        return Time(nanoseconds=self.nanoseconds + other.nanoseconds, clock_type=self.clock_type)
 
     __radd__ = __add__
 
@@ -88,6 +87,7 @@ class Time:
     def __sub__(self, other: Duration) -> Time: ...
 
     def __sub__(self, other: Time | Duration) -> Time | Duration:
+        """Subtract a duration, or another time."""
         if isinstance(other, Time):
             if self.clock_type != other.clock_type:
                 raise TypeError("Can't subtract times with different clock types")
@@ -99,28 +99,33 @@ class Time:
         return NotImplemented
 
     def __eq__(self, other: object) -> bool:
+        """Compare the values."""
         return self._compare(other, eq)
 
     def __lt__(self, other: object) -> bool:
+        """Tell whether it is less."""
         return self._compare(other, lt)
 
     def __le__(self, other: object) -> bool:
+        """Tell whether it is less or equal."""
         return self._compare(other, le)
 
     def __gt__(self, other: object) -> bool:
+        """Tell whether it is more."""
         return self._compare(other, gt)
 
     def __ge__(self, other: object) -> bool:
+        """Tell whether it is more or equal."""
         return self._compare(other, ge)
 
     __hash__ = None  # type: ignore[assignment]
 
-    def _compare(self, other: object, relation: Callable[[int, int], bool]) -> bool:
+    def _compare(self, other: object, relation: Callable[[Any, Any], bool]) -> bool:
         if not isinstance(other, Time):
-            return NotImplemented
+            return cast("bool", NotImplemented)
         if self.clock_type != other.clock_type:
             raise TypeError("Can't compare times with different clock types")
-        return relation(self.nanoseconds, other.nanoseconds)
+        return bool(relation(self.nanoseconds, other.nanoseconds))
 
     def to_msg(self) -> builtin_interfaces.msg.Time:
         """Make a message of the time.

@@ -16,7 +16,7 @@ from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle, ROSInterruptException
 
 if TYPE_CHECKING:
-    from rclpy.executors import Executor
+    from rclpy._work_finder import WorkFinder
 
 
 class Timer(Entity):
@@ -140,7 +140,7 @@ class Timer(Entity):
             return None
         return 0.0 if self.is_ready() else self._clock._seconds_until(self._next_call)
 
-    def take(self, executor: Executor | None = None) -> Callable[[], Awaitable[Any]] | None:
+    def take(self, executor: WorkFinder | None = None) -> Callable[[], Awaitable[Any]] | None:
         """Take the call that is due and set the time of the next."""
         if self._closed or not self.is_ready():
             return None

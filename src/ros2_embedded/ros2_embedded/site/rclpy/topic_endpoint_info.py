@@ -41,6 +41,7 @@ class TopicEndpointInfo:
     qos_profile: QoSProfile = field(default_factory=lambda: QoSPresetProfiles.UNKNOWN.value)
 
     def __str__(self) -> str:
+        """Show it as text."""
         gid = ".".join(f"{byte:02x}" for byte in self.endpoint_gid)
         qos = self.qos_profile
         lines = [

@@ -11,7 +11,7 @@ class TypeHash:
     __slots__ = ["_value", "_version"]
     __hash__ = None  # type: ignore[assignment]
 
-    def __init__(self, version: int = -1, value: bytes = bytes(_SIZE)) -> None:  # noqa: B008
+    def __init__(self, version: int = -1, value: bytes = bytes(_SIZE)) -> None:
         """Create a hash.
 
         Args:
@@ -48,11 +48,13 @@ class TypeHash:
         return self._value
 
     def __eq__(self, other: object) -> bool:
+        """Compare the values."""
         if not isinstance(other, TypeHash):
             return False
         return (self.version, self.value) == (other.version, other.value)
 
     def __str__(self) -> str:
+        """Show it as text."""
         if self._version <= 0 or len(self._value) != self._SIZE:
             return "INVALID"
         return f"RIHS{self._version:02}_{self._value.hex()}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from rclpy._names import topic_name_problem, raise_problem
+from rclpy._names import raise_problem, topic_name_problem
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 
 TOPIC_SEPARATOR_STRING = "/"

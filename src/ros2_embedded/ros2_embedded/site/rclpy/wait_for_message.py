@@ -6,11 +6,11 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from ros2_embedded.dds.waitset import Guard, WaitSet
-
 from rclpy.constants import S_TO_NS
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
+
+from ros2_embedded.dds.waitset import Guard, WaitSet
 
 
 def wait_for_message(

@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 from types import FrameType
-from typing import Any
+from typing import Any, ClassVar
 
 from rclpy.clock import Clock
 from rclpy.impl.log_output import LogRecord, log_output
@@ -21,7 +20,7 @@ class _Filter:
     """Decides for one call site whether to log."""
 
     #: Options of the filter and their defaults; None where one must be given.
-    options: dict[str, Any] = {}
+    options: ClassVar[dict[str, Any]] = {}
 
     def __init__(self, values: dict[str, Any]) -> None:
         self.values = values
@@ -31,7 +30,10 @@ class _Filter:
 
 
 class _Throttle(_Filter):
-    options = {"throttle_duration_sec": None, "throttle_time_source_type": Clock()}
+    options: ClassVar[dict[str, Any]] = {
+        "throttle_duration_sec": None,
+        "throttle_time_source_type": Clock(),
+    }
 
     def __init__(self, values: dict[str, Any]) -> None:
         super().__init__(values)
@@ -51,7 +53,7 @@ class _Throttle(_Filter):
 
 
 class _SkipFirst(_Filter):
-    options = {"skip_first": None}
+    options: ClassVar[dict[str, Any]] = {"skip_first": None}
     _skipped = False
 
     def should_log(self) -> bool:
@@ -60,7 +62,7 @@ class _SkipFirst(_Filter):
 
 
 class _Once(_Filter):
-    options = {"once": None}
+    options: ClassVar[dict[str, Any]] = {"once": None}
     _logged = False
 
     def should_log(self) -> bool:
@@ -191,7 +193,7 @@ class RcutilsLogger:
         frame = _caller()
         site = (
             frame.f_code.co_name,
-            os.path.abspath(frame.f_code.co_filename),
+            frame.f_code.co_filename,
             frame.f_lineno,
             frame.f_lasti,
         )

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from builtin_interfaces.msg import Time
 from rcl_interfaces.msg import Log
+from rclpy.duration import Duration
+from rclpy.impl.log_output import LogRecord, log_output
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
 from ros2_embedded.dds.endpoints import Writer
 from ros2_embedded.dds.library import DdsError
 from ros2_embedded.dds.participant import Participant
 from ros2_embedded.messages.codec import serialize
-
-from rclpy.duration import Duration
-from rclpy.impl.log_output import LogRecord, log_output
-from rclpy.qos import DurabilityPolicy, QoSProfile
 
 _TYPE = "rcl_interfaces/msg/Log"
 _PROFILE = QoSProfile(
