@@ -69,11 +69,11 @@ class Scene:
             np.mod(azimuth + self.noise * AZIMUTH_STD * self.random.standard_normal(), TWO_PI)
         )
 
-    def clutter(self, per_scan, begin=0.0, end=80.0, farthest=100e3):
+    def clutter(self, per_scan, begin=0.0, end=80.0, nearest=1e3, farthest=100e3):
         count = self.random.poisson(per_scan * (end - begin) / self.period)
         time = self.random.uniform(begin, end, count)
         self.times += list(time)
-        self.distances += list(self.random.uniform(1e3, farthest, count))
+        self.distances += list(self.random.uniform(nearest, farthest, count))
         self.azimuths += list(np.mod(self.sense * TWO_PI * time / self.period, TWO_PI))
 
     def messages(self, sectors=32, end=None):

@@ -48,7 +48,7 @@ def test_competitors_behind_the_border_are_shown_but_stay(message):
     queue = PlotQueue(Health())
     queue.put(message(0.0, [0.1]), PARAMETERS, PERIOD)
     queue.put(message(SECTOR, [0.13, 0.24]), PARAMETERS, PERIOD)
-    rows, ripe = queue.take(PERIOD / 4, SECTOR)
+    rows, ripe = queue.take(PERIOD / 4, SECTOR / 2)
     np.testing.assert_allclose(rows[:, TIME], [0.1, 0.13])
     assert ripe == 1
     queue.take_also(np.array([0]))

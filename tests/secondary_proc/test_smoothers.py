@@ -57,7 +57,7 @@ def test_prediction_is_the_matrix_product(seconds, density, seed):
 )
 def test_covariances_stay_symmetric_and_positive_definite(name, seed, range_std, azimuth_std, far):
     random = np.random.default_rng(seed)
-    smoother = SMOOTHERS[name](0.3, 8.0, PERIOD)
+    smoother = SMOOTHERS[name](0.3, 8.0)
     count = 4
     state = random.normal(size=(count, 4)) * 100.0
     covariance = random_covariances(random, count)

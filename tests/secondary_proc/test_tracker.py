@@ -135,7 +135,7 @@ def test_a_later_clock_gives_the_same_tracks(scene, run):
         messages = [Table(m.stamp + shift, m.rows) for m in world.messages()]
         return run(Tracker(TrackerParameters()), messages)[0]
 
-    np.testing.assert_array_equal(tracks(0), tracks(12_345 * NANOSECONDS))
+    assert tracks(0).tobytes() == tracks(12_345 * NANOSECONDS).tobytes()
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -148,16 +148,18 @@ def test_crossing_north_is_nothing_special(scene, run, tracker, sense, direction
     world.fly((1e4, -2e4), (50.0, 50.0))
     rows, times = run(tracker, world.messages())
     assert_one_track_each(rows, times, world.truths)
+    rows = rows[np.isin(rows["id"], list(confirmed(rows)))]
     assert (rows["misses"] == 0).all()
-    plots = rows[np.isfinite(rows["plot_range"])]
-    assert len(plots) == len(world.times)
+    # All but those from before the rotation was known.
+    late = [d for d, t in zip(world.distances, world.times, strict=True) if t > 10.0]
+    assert set(late) <= set(rows["plot_range"].tolist())
 
 
 def test_misses_are_counted_once_a_turn(scene, run, tracker):
     world = scene(seed=8)
     world.fly((30e3, 3e3), (-100.0, 10.0), end=40.0)
     world.fly((-20e3, -20e3), (90.0, 10.0), end=120.0)
-    world.clutter(30.0, end=120.0)
+    world.clutter(30.0, end=120.0, nearest=60e3)
     rows, times = run(tracker, world.messages())
     lost = [i for i in confirmed(rows) if times[rows["id"] == i].max() < 90.0]
     assert len(lost) == 1
@@ -177,13 +179,13 @@ def test_tracks_live_through_a_change_of_the_period(scene, run, tracker, factor)
     for world, begin, stop in ((first, 0.0, change), (second, change, end)):
         for flight in FLIGHTS:
             world.fly(*flight, begin=begin, end=stop)
-        world.clutter(100.0, begin=begin, end=stop)
+        world.clutter(40.0, begin=begin, end=stop, nearest=60e3)
     first.times += second.times
     first.distances += second.distances
     first.azimuths += second.azimuths
     rows, times = run(tracker, first.messages())
     assert tracker.period == pytest.approx(4.0 * factor, rel=0.01)
-    assert_one_track_each(rows, times, first.truths[: len(FLIGHTS)])
+    assert_one_track_each(rows, times, first.truths[: len(FLIGHTS)], largest=400.0)
 
 
 def test_a_lost_sector_ends_only_the_tracks_in_it(scene, run, tracker):
@@ -262,7 +264,7 @@ def test_what_is_no_table_of_plots_is_refused(tracker, start):
 
 
 def test_slow_pairs_open_no_track(scene, run):
-    world = scene(seed=16)
+    world = scene(seed=16, noise=0.2)
     world.fly((20e3, 20e3), (0.0, 0.0))
     world.fly((-20e3, 20e3), (150.0, 0.0))
     rows, times = run(Tracker(TrackerParameters(minimum_speed=90.0)), world.messages())

@@ -12,6 +12,20 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 
+_MANOEUVRE_SECONDS = 4.0
+
+
+def noise_density(acceleration: float) -> float:
+    """White noise that spreads positions as accelerations of some seconds do.
+
+    Args:
+        acceleration: standard deviation, m/s^2.
+
+    Returns:
+        Power spectral density of the acceleration, m^2/s^3, whatever the antenna's period.
+    """
+    return acceleration**2 * _MANOEUVRE_SECONDS
+
 
 def predict_state(state: FloatArray, seconds: FloatArray) -> FloatArray:
     """Move states along their velocity.

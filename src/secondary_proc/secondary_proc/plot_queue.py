@@ -58,6 +58,11 @@ class PlotQueue:
         """Latest stamp in nanoseconds, 0 before the first message."""
         return self._last_stamp
 
+    @property
+    def begin(self) -> float:
+        """Time of the first plot that waits, or the present time: all before has been handed out."""
+        return float(min(self._waiting[0, TIME], self.now)) if len(self._waiting) else self.now
+
     def put(self, table: Table, parameters: TrackerParameters, period: float) -> FloatArray:
         """Take in the plots of a message.
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from radar_common.frames import TWO_PI, wrap_pi
+from radar_common.frames import TWO_PI, wrap_pi, wrap_two_pi
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -19,6 +19,7 @@ LONGEST_PERIOD = 60.0
 _WINDOW = 128
 _FEWEST = 6
 _TOLERANCE = 0.2  # rad
+_LEAST_HEIGHT = 0.75
 _SMALLEST_TURN = 1.0  # rad
 _FINEST_GRID = 4096
 _LONGEST_SILENCE = 20.0  # periods
@@ -48,6 +49,8 @@ class Rotation:
         self._lost = -np.inf
         self.locked = False
         """Whether the plots at present fit the estimate."""
+        self.locks = 0
+        """How often it has been found."""
 
     @property
     def known(self) -> bool:
@@ -78,6 +81,19 @@ class Rotation:
         in_doubt = not self.locked and now - self._lost < _LONGEST_DOUBT * self.period
         return self.known and not in_doubt
 
+    def last_passage(self, azimuths: FloatArray, before: float) -> FloatArray:
+        """When the beam was at given azimuths last, by the present phase.
+
+        Args:
+            azimuths: radians, shape (n,).
+            before: seconds.
+
+        Returns:
+            Seconds, at most `before`, shape (n,).
+        """
+        phase = self._phase + self._rate * (before - self._origin)
+        return before - wrap_two_pi(self.sense * (phase - azimuths)) / abs(self._rate)
+
     def observe(self, times: FloatArray, azimuths: FloatArray) -> None:
         """Take plots into account.
 
@@ -105,7 +121,9 @@ class Rotation:
         good = np.abs(self._residuals(times, azimuths)) < _TOLERANCE
         self._good = np.concatenate([self._good, good])[-_VERDICT_PLOTS:]
         if len(self._good) == _VERDICT_PLOTS and np.count_nonzero(self._good) < _VERDICT_PLOTS / 2:
-            self._restart(_VERDICT_PLOTS)
+            # What still fitted belongs to the rotation that is over.
+            bad = int(np.count_nonzero(~self._good))
+            self._restart(bad - int(np.count_nonzero(~good)))
             self._lost = float(times[-1])
 
     def _restart(self, keep: int) -> None:
@@ -145,18 +163,20 @@ class Rotation:
         speeds = np.linspace(TWO_PI / LONGEST_PERIOD, highest, count)
         rates = np.concatenate([-speeds[::-1], speeds])
         height = np.abs(np.exp(1j * (azimuths - rates[:, None] * times)).mean(axis=1))
-        best = float(height.max())
         peak = np.r_[False, (height[1:-1] >= height[:-2]) & (height[1:-1] >= height[2:]), False]
-        candidates = rates[peak & (height > best - 0.1)]
-        if best < 0.8 or not len(candidates):
+        peak &= (height > _LEAST_HEIGHT) & (height > height.max() - 0.1)
+        if not peak.any():
             return
-        fits = [self._fit(rate, times, azimuths) for rate in self._by_preference(candidates)[:8]]
-        error, rate, phase = min(fits, key=lambda fit: round(fit[0], 2))
-        if error > _TOLERANCE / 2 or abs(rate) * span < _SMALLEST_TURN or rate == 0.0:
+        fits = [self._fit(rate, times, azimuths) for rate in self._by_preference(rates[peak])[:8]]
+        smallest = min(error for error, _, _ in fits)
+        # Of rates that fit equally well, as for a single target, the preferred one.
+        error, rate, phase = next(fit for fit in fits if fit[0] <= 1.5 * smallest + 1e-3)
+        if error > _TOLERANCE / 4 or abs(rate) * span < _SMALLEST_TURN:
             return
         self._rate, self._phase, self._origin = rate, phase, newest
         self._period = float(np.clip(TWO_PI / abs(rate), SHORTEST_PERIOD, LONGEST_PERIOD))
         self.locked = True
+        self.locks += 1
 
     def _by_preference(self, rates: FloatArray) -> FloatArray:
         if self._hint > 0.0:
@@ -165,13 +185,15 @@ class Rotation:
 
     @staticmethod
     def _fit(rate: float, times: FloatArray, azimuths: FloatArray) -> tuple[float, float, float]:
-        phase = 0.0
-        for _ in range(4):
-            rotor = np.exp(1j * (azimuths - rate * times))
-            phase = float(np.angle(rotor.mean()))
-            residuals = wrap_pi(azimuths - rate * times - phase)
-            spread = times - times.mean()
-            rate += float(spread @ residuals / (spread @ spread))
+        phase = float(np.angle(np.exp(1j * (azimuths - rate * times)).mean()))
+        good = np.ones(len(times), bool)
         residuals = wrap_pi(azimuths - rate * times - phase)
-        phase += float(residuals.mean())
-        return float(np.sqrt(np.mean((residuals - residuals.mean()) ** 2))), rate, phase
+        for _ in range(5):
+            spread = times[good] - times[good].mean()
+            rate += float(spread @ residuals[good] / max(float(spread @ spread), 1e-12))
+            phase = float(np.angle(np.exp(1j * (azimuths - rate * times))[good].mean()))
+            residuals = wrap_pi(azimuths - rate * times - phase)
+            near = np.abs(residuals) < _TOLERANCE
+            if np.count_nonzero(near) >= max(_FEWEST, _LEAST_HEIGHT * len(times)):
+                good = near
+        return float(np.sqrt(np.mean(residuals[good] ** 2))), rate, phase

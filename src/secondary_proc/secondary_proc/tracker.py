@@ -85,9 +85,12 @@ class Tracker:
         self._clutter.forget(elapsed / self._rotation.period)
         accepted = self._queue.put(plots, self.parameters, self._rotation.period)
         self.health.count("plots in", len(accepted))
+        locks = self._rotation.locks
         self._rotation.observe(accepted[:, TIME], accepted[:, AZIMUTH])
         if abs(self._rotation.period / self._tracks.period - 1.0) > _CHANGE:
             self._tracks.reconfigure(self.parameters, self._rotation)
+        if self._rotation.locks > locks:
+            self._tracks.synchronise(self._queue.begin)
         self._drain(out)
         return self._table(out, plots.stamp)
 

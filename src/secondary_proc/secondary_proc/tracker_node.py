@@ -51,8 +51,8 @@ class TrackerNode(Node):
         """
         super().__init__(NODE_NAME, **node_options)
         self._health = Health()
-        self._parameters = NodeParameters(self, TrackerParameters, self._change)
-        self._tracker = Tracker(self._parameters.values, self._health)
+        self._settings = NodeParameters(self, TrackerParameters, self._change)
+        self._tracker = Tracker(self._settings.values, self._health)
         self._tracks = TablePublisher(self, TRACKS_TOPIC)
         self._markers = self.create_publisher(MarkerArray, MARKERS_TOPIC, 10)
         self._plots = TableSubscription(

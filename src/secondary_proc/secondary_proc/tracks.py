@@ -13,7 +13,7 @@ from radar_common.tables import TrackStatus
 from secondary_proc import score, track_table
 from secondary_proc.gates import Gated, gate
 from secondary_proc.initiation import INITIATIONS, Evidence
-from secondary_proc.motion import FloatArray
+from secondary_proc.motion import FloatArray, noise_density
 from secondary_proc.opening import first_state
 from secondary_proc.plots import Plots
 from secondary_proc.rotation import Rotation
@@ -57,16 +57,29 @@ class Tracks:
         self._parameters = parameters
         self._rotation = rotation
         self.period = rotation.period
-        self._quiet = parameters.acceleration**2 * self.period
-        self._manoeuvre = parameters.manoeuvre_acceleration**2 * self.period
+        self._quiet = noise_density(parameters.acceleration)
+        self._manoeuvre = noise_density(parameters.manoeuvre_acceleration)
         self._initiation = INITIATIONS[parameters.initiation](
             parameters.confirm_hits, parameters.confirm_window, parameters.tentative_misses
         )
         self._smoother = SMOOTHERS[parameters.smoother](
-            parameters.acceleration, parameters.manoeuvre_acceleration, self.period
+            parameters.acceleration, parameters.manoeuvre_acceleration
         )
         self._store.set_memory(self._smoother.memory)
         self._schedule(np.arange(len(self._store)))
+
+    def synchronise(self, now: float) -> None:
+        """Date the last passages anew, after the rotation has been found again.
+
+        Args:
+            now: seconds, all plots before have been processed.
+        """
+        store = self._store
+        state = store["state"]
+        moved = state[:, :2] + state[:, 2:] * (now - store["time"])[:, None]
+        azimuth = np.arctan2(moved[:, 0], moved[:, 1])
+        store["crossing"][:] = self._rotation.last_passage(azimuth, now)
+        self._schedule(np.arange(len(store)))
 
     def __len__(self) -> int:
         """Number of tracks, tentative ones included."""

@@ -5,15 +5,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from secondary_proc.motion import noise_density
 from secondary_proc.smoothing.alpha_beta import AlphaBetaSmoother
 from secondary_proc.smoothing.interface import Measured, Smoothed, Smoother, joseph_update
 from secondary_proc.smoothing.kalman import KalmanSmoother
 
-SMOOTHERS: dict[str, Callable[[float, float, float], Smoother]] = {
-    "kalman": lambda quiet, manoeuvre, period: KalmanSmoother(
-        quiet**2 * period, manoeuvre**2 * period
+SMOOTHERS: dict[str, Callable[[float, float], Smoother]] = {
+    "kalman": lambda quiet, manoeuvre: KalmanSmoother(
+        noise_density(quiet), noise_density(manoeuvre)
     ),
-    "alpha_beta": lambda quiet, manoeuvre, period: AlphaBetaSmoother(quiet, quiet**2 * period),
+    "alpha_beta": lambda quiet, manoeuvre: AlphaBetaSmoother(quiet, noise_density(quiet)),
 }
+"""Smoothers by name; they are made of the accelerations between and in manoeuvres, m/s^2."""
 
 __all__ = ["SMOOTHERS", "Measured", "Smoothed", "Smoother", "joseph_update"]
