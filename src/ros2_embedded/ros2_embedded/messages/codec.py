@@ -47,7 +47,7 @@ class _WireStore:
         cls = message_class(typename)
         converted = {field.name for field in cls.__ros_fields__ if field.to_wire}
         fields = [
-            (_attribute(name, name in converted), desc)
+            (_attribute(name, name in converted), _byte_as_uint8(desc))
             for name, desc in type_store().fielddefs[typename][1]
         ]
         store = cast("Any", self)
@@ -67,6 +67,17 @@ def _attribute(name: str, converted: bool) -> str:
     if name == EMPTY_MEMBER:
         return "_empty_member"
     return f"_wire_{name}" if converted else f"_{name}"
+
+
+def _byte_as_uint8(desc: Any) -> Any:
+    # rosbags writes bytes as signed numbers, which cannot be above 127.
+    kind, value = cast("tuple[Nodetype, Any]", desc)
+    if kind == Nodetype.BASE:
+        return (kind, ("uint8", 0) if value[0] == "byte" else value)
+    if kind == Nodetype.NAME:
+        return desc
+    element, size = value
+    return (kind, (_byte_as_uint8(element), size))
 
 
 _STORE = _WireStore()

@@ -17,6 +17,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import Image, NavSatFix, PointCloud2, PointField
 from std_msgs.msg import (
     Bool,
+    Byte,
     ByteMultiArray,
     Char,
     Empty,
@@ -37,6 +38,7 @@ HEADER = Header(stamp=Time(sec=12, nanosec=34), frame_id="radar")
 MESSAGES = [
     Bool(data=True),
     Char(data=200),
+    Byte(data=b"\xff"),
     Int64(data=-(2**63)),
     Float32(data=0.5),
     String(data="Grüße, 雷达"),

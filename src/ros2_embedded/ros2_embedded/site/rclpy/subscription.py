@@ -13,6 +13,7 @@ from rclpy._entity import Entity, call_or_await
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.callback_groups import CallbackGroup
 from rclpy.event_handler import EventHandler, SubscriptionEventCallbacks
+from rclpy.logging import get_logger
 from rclpy.qos import QoSProfile
 
 from ros2_embedded.dds.endpoints import Reader
@@ -138,6 +139,9 @@ class Subscription(Entity, Generic[MsgType]):
             taken = self._reader.take(self._convert)
         except DdsError:
             return None  # The context was shut down meanwhile.
+        except ValueError as error:
+            get_logger("rclpy").error(f"dropped a message of {self.topic}: {error}")
+            return None
         if taken is None:
             return None
         return taken[0], {
