@@ -23,11 +23,9 @@ def table(*rows):
 
 def sets(groups):
     """Groups as sets of (ring, start)."""
-    found = {}
-    for burst, plot in zip(groups.bursts, groups.plot, strict=True):
-        found.setdefault(int(plot), set()).add((int(burst["ring"]), int(burst["start"])))
-    assert sorted(found) == list(range(len(groups)))
-    return {frozenset(group) for group in found.values()}
+    assert np.array_equal(groups.first, np.unique(groups.first))
+    found = np.split(groups.bursts, groups.first[1:]) if len(groups) else []
+    return {frozenset((int(b["ring"]), int(b["start"])) for b in group) for group in found}
 
 
 def plain_groups(rows, gap):

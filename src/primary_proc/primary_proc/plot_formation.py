@@ -62,27 +62,24 @@ def form_plots(
     Returns:
         Table of dtype PLOT; `time_offset` holds the time of the log.
     """
-    bursts, plot, count = groups.bursts, groups.plot, len(groups)
-    plots = np.zeros(count, PLOT)
+    bursts, first = groups.bursts, groups.first
+    plots = np.zeros(len(groups), PLOT)
+    plot = np.repeat(np.arange(len(groups)), np.diff(first, append=len(bursts)))
     centres = estimator.estimate(bursts)
 
-    def mean(weight: FloatArray, value: FloatArray) -> FloatArray:
-        return np.bincount(plot, weight * value, count) / np.bincount(plot, weight, count)
-
     weight = 1.0 / centres.std**2
-    position = mean(weight, centres.position)
-    scatter = mean(weight, (centres.position - position[plot]) ** 2)
-    variance = np.maximum(1.0 / np.bincount(plot, weight, count), scatter)
+    total = np.add.reduceat(weight, first)
+    position = np.add.reduceat(weight * centres.position, first) / total
+    scatter = np.add.reduceat(weight * (centres.position - position[plot]) ** 2, first) / total
+    variance = np.maximum(1.0 / total, scatter)
     amplitude = np.sqrt(bursts["power"].astype(float))
-    ring = mean(amplitude, bursts["ring"] + 0.5)
+    weighted = np.add.reduceat(amplitude * bursts["ring"], first)
+    ring = weighted / np.add.reduceat(amplitude, first) + 0.5
 
-    strongest = np.lexsort((bursts["power"], plot))[np.cumsum(np.bincount(plot)) - 1]
-    nearest = np.full(count, np.iinfo(np.int32).max)
-    farthest = np.full(count, -1)
-    np.minimum.at(nearest, plot, bursts["ring"])
-    np.maximum.at(farthest, plot, bursts["ring"])
+    strongest = np.lexsort((amplitude, plot))[np.append(first[1:], len(bursts)) - 1]
+    nearest, farthest = (f.reduceat(bursts["ring"], first) for f in (np.minimum, np.maximum))
     rings = farthest - nearest + 1
-    extended = (rings > target_rings) | (np.bincount(plot, bursts["overflow"], count) > 0)
+    extended = (rings > target_rings) | np.logical_or.reduceat(bursts["overflow"], first)
 
     plots["azimuth"], plots["time_offset"] = log.at(position)
     plots["range"] = grid.range_start + ring * grid.range_step

@@ -9,12 +9,22 @@ are patterns of shifted rows, and all detections before the same end are one bur
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 import numpy.typing as npt
 
 from primary_proc.automaton import Program
-from primary_proc.burst_detector import BURST, BurstDetector, bursts, in_order, joined
+from primary_proc.burst_detector import BurstDetector, bursts, in_order
 from primary_proc.quantiser import unpack_cells
+
+
+class _Open(NamedTuple):
+    """Bursts that have not ended, in order of ring."""
+
+    ring: npt.NDArray[np.int64]
+    start: npt.NDArray[np.int64]
+    silent: npt.NDArray[np.bool_]
 
 
 class ProgramDetector(BurstDetector):
@@ -45,7 +55,8 @@ class ProgramDetector(BurstDetector):
     def reset(self) -> None:
         """Forget all past pulses."""
         self._past = np.zeros((self._history, self._words), np.uint64)
-        self._open = np.zeros(0, BURST)
+        none = np.zeros(0, np.int64)
+        self._open = _Open(none, none, none > 0)
 
     def detect(self, samples: npt.NDArray, first: int) -> npt.NDArray[np.void]:
         """Go on with the next pulses; see `BurstDetector.detect`.
@@ -61,33 +72,33 @@ class ProgramDetector(BurstDetector):
         words = np.concatenate([self._past, samples])
         self._past = words[pulses:]
         pulse, ring = self._detections(words, pulses)
-        if not len(ring) and not len(self._open):
-            return np.zeros(0, BURST)
-        self._busy[ring] = self._busy[self._open["ring"]] = True
+        before = self._open
+        self._busy[ring] = self._busy[before.ring] = True
         rings = np.flatnonzero(self._busy)
+        if not len(rings):
+            return bursts(rings, rings, rings, False)
         self._busy[rings] = False
         self._column[rings] = np.arange(len(rings))
         end = self._next_ends(words, rings, pulses)
 
         # Detections of a ring that run into the same end are one burst, begun by the first of them.
-        column, open_column = self._column[ring], self._column[self._open["ring"]]
+        column, open_column = self._column[ring], self._column[before.ring]
         stop, open_stop = end[pulse, column], end[0, open_column]
         going_on = np.full(len(rings), -1)
         going_on[open_column] = open_stop
         begins = going_on[column] != stop
         begins[1:] &= (column[1:] != column[:-1]) | (stop[1:] != stop[:-1])
-
-        started = bursts(ring[begins], first + pulse[begins], -1, False)
-        return self._close(
-            joined(self._open, started),
-            np.concatenate([open_stop, stop[begins]]),
-            first,
-            pulses,
+        after = _Open(
+            np.concatenate([before.ring, ring[begins]]),
+            np.concatenate([before.start, first + pulse[begins]]),
+            np.concatenate([before.silent, np.zeros(np.count_nonzero(begins), bool)]),
         )
+        return self._close(after, np.concatenate([open_stop, stop[begins]]), first, pulses)
 
     def open_bursts(self) -> npt.NDArray[np.void]:
         """List the bursts that have not ended."""
-        return self._open[~self._open["overflow"]]
+        heard = ~self._open.silent
+        return bursts(self._open.ring[heard], self._open.start[heard], -1, False)
 
     def _detections(
         self, words: npt.NDArray[np.uint64], pulses: int
@@ -125,21 +136,23 @@ class ProgramDetector(BurstDetector):
         return np.minimum.accumulate(ends[::-1], axis=0)[::-1]
 
     def _close(
-        self,
-        going: npt.NDArray[np.void],
-        stop: npt.NDArray[np.int32],
-        first: int,
-        pulses: int,
+        self, going: _Open, stop: npt.NDArray[np.int32], first: int, pulses: int
     ) -> npt.NDArray[np.void]:
         """Split bursts into those that ended, which are returned, and those kept open."""
-        silent = going["overflow"].copy()
-        last = np.minimum(first + stop, first + pulses - 1)
-        limit = going["start"] + self.longest
-        overflow = ~silent & (np.where(stop < pulses, last > limit, last >= limit))
-        going["overflow"] |= overflow
-        going["end"] = np.where(overflow, limit, last)
-        closed = in_order(going[overflow | ((stop < pulses) & ~silent)])
-        kept = going[stop == pulses]
-        kept["end"] = -1
-        self._open = kept[np.argsort(kept["ring"], kind="stable")]
-        return closed
+        end = first + stop.astype(np.int64)
+        limit = going.start + self.longest
+        overflow = ~going.silent & (end > limit)
+        ended = stop < pulses
+        closed = overflow | (ended & ~going.silent)
+        kept = np.flatnonzero(~ended)
+        kept = kept[np.argsort(going.ring[kept], kind="stable")]
+        silent = going.silent | overflow
+        self._open = _Open(going.ring[kept], going.start[kept], silent[kept])
+        return in_order(
+            bursts(
+                going.ring[closed],
+                going.start[closed],
+                np.minimum(end, limit)[closed],
+                overflow[closed],
+            )
+        )

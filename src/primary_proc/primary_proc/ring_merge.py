@@ -17,23 +17,24 @@ from scipy.sparse.csgraph import connected_components
 from primary_proc.burst_detector import BURST, joined
 
 _LONGEST_CHAIN = 2
+_NO_PARTS = np.zeros(0, np.int64)
 
 
 @dataclass(frozen=True, slots=True)
 class Groups:
-    """Bursts with the plot that each belongs to.
+    """Bursts, those of one plot behind each other.
 
     Attributes:
         bursts: dtype BURST, shape (n,).
-        plot: number of the plot of each, from 0 without a gap, shape (n,).
+        first: index of each plot's first burst, shape (plots,).
     """
 
     bursts: npt.NDArray[np.void]
-    plot: npt.NDArray[np.int64]
+    first: npt.NDArray[np.int64]
 
     def __len__(self) -> int:
         """Count the plots."""
-        return int(self.plot.max()) + 1 if len(self.plot) else 0
+        return len(self.first)
 
 
 class RingMerger:
@@ -73,7 +74,7 @@ class RingMerger:
             Complete groups.
         """
         if not len(closed) and not len(self.waiting):
-            return Groups(self.waiting, np.zeros(0, np.int64))
+            return _groups(self.waiting, _NO_PARTS)
         bursts = joined(self.waiting, closed, going)
         is_open = np.arange(len(bursts)) >= len(bursts) - len(going)
         order = np.lexsort((bursts["start"], bursts["ring"]))
@@ -86,7 +87,8 @@ class RingMerger:
         grows = np.bincount(part, is_open | (end + self.gap > now), parts) > 0
         grows &= now - begin <= _LONGEST_CHAIN * self.longest
         self.waiting = bursts[grows[part] & ~is_open]
-        return _groups(bursts, part, ~grows[part] & ~is_open)
+        done = ~grows[part] & ~is_open
+        return _groups(bursts[done], part[done])
 
     def finish(self) -> Groups:
         """Give what was collected, complete or not.
@@ -96,15 +98,16 @@ class RingMerger:
         """
         bursts, self.waiting = self.waiting, self.waiting[:0]
         if not len(bursts):
-            return Groups(bursts, np.zeros(0, np.int64))
+            return _groups(bursts, _NO_PARTS)
         part = _connected(bursts["ring"], bursts["start"], bursts["end"], self.gap)
-        return _groups(bursts, part, np.ones(len(bursts), bool))
+        return _groups(bursts, part)
 
 
-def _groups(
-    bursts: npt.NDArray[np.void], part: npt.NDArray[np.integer], done: npt.NDArray[np.bool_]
-) -> Groups:
-    return Groups(bursts[done], np.unique(part[done], return_inverse=True)[1].astype(np.int64))
+def _groups(bursts: npt.NDArray[np.void], part: npt.NDArray[np.integer]) -> Groups:
+    order = np.argsort(part, kind="stable")
+    sizes = np.bincount(part)
+    sizes = sizes[sizes > 0]
+    return Groups(bursts[order], np.cumsum(sizes) - sizes)
 
 
 def _connected(
