@@ -38,7 +38,7 @@ def live(context, executor, listener, spin_until):
     settings = {
         "scenario": "tiny",
         "scans": SCANS,
-        "rate": 20.0,
+        "rate": 4.0,
         "wait_for_subscribers": 1,
         "wait_for_truth_subscribers": 1,
     }

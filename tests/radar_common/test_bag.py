@@ -42,6 +42,16 @@ def test_messages_come_back_in_order_of_their_latest_row(tmp_path):
     assert order == ["early", "late"]
 
 
+def test_messages_of_a_topic_come_back_in_the_order_of_writing(tmp_path):
+    ahead, behind = plots(1, 10**9), plots(1, 10**9 + 5 * 10**7)
+    ahead.rows["time_offset"], behind.rows["time_offset"] = 0.06, -0.01
+    with BagWriter(tmp_path / "bag") as bag:
+        bag.write(PLOTS_TOPIC, ahead)
+        bag.write(PLOTS_TOPIC, behind)
+    read = [t.stamp for _, t in read_tables(tmp_path / "bag", {PLOTS_TOPIC: PLOT})]
+    assert read == [ahead.stamp, behind.stamp]
+
+
 def test_a_topic_with_another_table_is_dropped_and_counted(tmp_path):
     with BagWriter(tmp_path / "bag") as bag:
         bag.write(PLOTS_TOPIC, Table(0, np.zeros(1, [("azimuth", "<f4"), ("time_offset", "<f8")])))

@@ -82,6 +82,7 @@ class BagWriter:
         except WriterError as error:
             raise BagError(str(error)) from error
         self._connections: dict[str, Connection] = {}
+        self._latest: dict[str, int] = {}
 
     def __enter__(self) -> Self:
         """Open the bag."""
@@ -104,15 +105,17 @@ class BagWriter:
             topic: name without the leading slash.
             table: what to write.
             log_time: nanoseconds at which the message counts as received; None takes the time of its latest row,
-                when a live message would have been sent.
+                when a live message would have been sent, but not before the message ahead of it on the topic.
         """
         if topic not in self._connections:
             self._connections[topic] = self._writer.add_connection(
                 f"/{topic}", CLOUD, typestore=_STORE, offered_qos_profiles=[_RELIABLE]
             )
         if log_time is None:
-            latest = table.rows["time_offset"].max() if len(table.rows) else 0.0
+            latest = table.rows["time_offset"].max(initial=0.0)
             log_time = table.stamp + round(float(latest) * NANOSECONDS)
+            log_time = max(log_time, self._latest.get(topic, log_time))
+        self._latest[topic] = log_time
         data = _STORE.serialize_cdr(encode(table, _TYPES), CLOUD)
         self._writer.write(self._connections[topic], log_time, data)
 

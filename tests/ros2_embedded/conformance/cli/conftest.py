@@ -97,6 +97,7 @@ class Ros2:
             text=True,
             timeout=DEADLINE,
             check=False,
+            env=environment(),
         )
 
     def until(self, condition, *words):

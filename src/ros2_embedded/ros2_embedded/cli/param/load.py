@@ -7,11 +7,7 @@ import argparse
 
 from rclpy.parameter import parameter_dict_from_yaml_file
 
-from ros2_embedded.cli.param.node_parameters import (
-    absolute,
-    add_target_arguments,
-    parameters_of_target,
-)
+from ros2_embedded.cli.param.node_parameters import add_target_arguments, parameters_of_target
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> None:
-    """Set the parameters that a file holds for a node.
+    """Set the parameters that a file holds, whichever node it holds them for.
 
     Args:
         args: The parsed arguments.
@@ -40,9 +36,7 @@ def main(args: argparse.Namespace) -> None:
     """
     try:
         loaded = parameter_dict_from_yaml_file(
-            args.parameter_file,
-            use_wildcard=not args.no_use_wildcard,
-            target_nodes=[absolute(args.node_name)],
+            args.parameter_file, use_wildcard=not args.no_use_wildcard
         )
     except OSError as error:
         raise RuntimeError(f"Cannot read '{args.parameter_file}': {error.strerror}") from error

@@ -82,7 +82,7 @@ def main(args: argparse.Namespace) -> None:
         )
         if kind is None:
             raise RuntimeError("Could not determine the type for the passed topic")
-        finished = Future()
+        finished: Future = Future()
 
         def on_message(message: Any, info: Mapping[str, Any]) -> None:
             if not finished.done() and printer.show(message, info) and args.once:

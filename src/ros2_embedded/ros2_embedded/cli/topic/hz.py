@@ -7,7 +7,8 @@ import argparse
 from typing import Any
 
 import rclpy
-from rclpy.clock import Clock, ClockType
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 from rclpy.qos import qos_profile_sensor_data
 
 from ros2_embedded.cli.arguments import positive_int
