@@ -87,6 +87,21 @@ def test_targets_become_one_plot_each_with_honest_errors(scene, extract, cut, ta
     assert not health.dropped
 
 
+def test_errors_of_fast_fluctuating_targets_are_stated_with_caution(scene, extract, target_places):
+    """Steady-target errors would be too small by half; echoes in two rings fluctuate each for itself, hence caution."""
+    made = scene(13, 1024, 512, [(p, c, 10.0) for p, c in target_places], fast=True)
+    squares = {}
+    for fluctuation in ("steady", "fast"):
+        plots, _ = extract(made.sectors(), fluctuation=fluctuation, false_plots_per_scan=0.1)
+        which, pulse, _ = matched(plots, made, target_places)
+        assert (which >= 0).mean() > 0.95
+        seen = which[which >= 0]
+        error = (pulse[seen] - target_places[which >= 0, 0]) * STEP
+        squares[fluctuation] = np.mean((error / plots["azimuth_std"][seen]) ** 2)
+    assert squares["steady"] > 1.3
+    assert 0.3 < squares["fast"] < 1.0 + 3.3 * np.sqrt(2.0 / len(target_places))
+
+
 def test_false_plots_are_as_many_as_wanted(scene, extract, cut):
     """Four scans of noise: the number of plots within the Poisson bound of the design."""
     scans, wanted = 4, 60.0

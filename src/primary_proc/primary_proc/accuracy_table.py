@@ -3,18 +3,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import chndtr
 
 from primary_proc.antenna_pattern import burst_shape
 from primary_proc.automaton import Program
 from primary_proc.automaton_chain import StartEnd, first_detection, start_end_distribution
-from primary_proc.single_pulse import steady_probability, threshold_for
+from primary_proc.single_pulse import (
+    fluctuating_probability,
+    steady_probability,
+    threshold_for,
+)
 
 FloatArray = npt.NDArray[np.float64]
+
+TargetModel = Callable[[npt.ArrayLike, npt.ArrayLike], FloatArray]
+
+TARGETS: dict[str, TargetModel] = {
+    "steady": steady_probability,
+    # Kuzmin's k is the rms envelope ratio: the mean power over the noise's is k^2, where that of a is a^2 / 2.
+    "fast": lambda threshold, amplitude: fluctuating_probability(
+        threshold, np.asarray(amplitude) / np.sqrt(2.0)
+    ),
+}
+"""What targets do from pulse to pulse of a burst: probability that the envelope exceeds a threshold."""
 
 _AMPLITUDES = np.geomspace(1.0, 32.0, 26)
 _OFFSETS = np.array([-0.375, -0.125, 0.125, 0.375])
@@ -49,17 +64,20 @@ class AccuracyTable:
         return np.interp(position, grid, self.bias), np.interp(position, grid, self.std)
 
 
-def accuracy_table(program: Program, noise: float, pattern: str, pulses: float) -> AccuracyTable:
+def accuracy_table(
+    program: Program, noise: float, pattern: str, pulses: float, target: str = "steady"
+) -> AccuracyTable:
     """Make the table for a detector and a beam.
 
-    The target does not fluctuate and lies anywhere between two pulses. Its amplitude is judged by the peak, which in
-    the median over the burst's pulses belongs to it.
+    The target lies anywhere between two pulses. Its amplitude is judged by the peak, which in the median over the
+    burst's pulses belongs to it.
 
     Args:
         program: l/m-k.
         noise: probability p_N of a one in noise.
         pattern: antenna pattern's name.
         pulses: N_0.
+        target: name in `TARGETS`.
 
     Returns:
         The table.
@@ -67,27 +85,27 @@ def accuracy_table(program: Program, noise: float, pattern: str, pulses: float) 
     threshold = float(threshold_for(noise))
     shape = burst_shape(pattern, pulses, _OFFSETS, book=False)
     amplitude = _AMPLITUDES[:, None, None] * shape
-    signal = steady_probability(threshold, amplitude)
+    signal = TARGETS[target](threshold, amplitude)
     joint = start_end_distribution(program, noise, signal)
-    target = (shape.shape[-1] + 1) / 2.0 + _OFFSETS[:, None, None]
-    weight = _of_plots(program, joint, target, first_detection(program, noise, signal))
+    position = (shape.shape[-1] + 1) / 2.0 + _OFFSETS[:, None, None]
+    weight = _of_plots(program, joint, position, first_detection(program, noise, signal))
     weight /= weight.sum(axis=(1, 2, 3), keepdims=True)
-    error = (joint.start[:, None] + joint.end) / 2.0 - target
+    error = (joint.start[:, None] + joint.end) / 2.0 - position
     bias = (weight * error).sum(axis=(1, 2, 3))
     variance = (weight * error**2).sum(axis=(1, 2, 3)) - bias**2
-    peak = np.maximum(_median_peak(amplitude[:, 1]), threshold)
+    peak = np.maximum(_median_peak(TARGETS[target], amplitude[:, 1]), threshold)
     return AccuracyTable(np.maximum.accumulate(peak**2 / 2.0), bias, np.sqrt(variance))
 
 
 def _of_plots(
-    program: Program, joint: StartEnd, target: FloatArray, detected: FloatArray
+    program: Program, joint: StartEnd, position: FloatArray, detected: FloatArray
 ) -> FloatArray:
     """Probability of each start and end to be the burst that a plot is made of.
 
     Where a target gives several bursts, the one over its middle outweighs the fragments beside it. Those count as far
     as there is no burst over the middle.
     """
-    over = (joint.start[:, None] - program.window < target) & (joint.end >= target)
+    over = (joint.start[:, None] - program.window < position) & (joint.end >= position)
     middle = np.where(over, joint.probability, 0.0)
     beside = joint.probability - middle
     alone = np.maximum(detected - middle.sum(axis=(-2, -1)), 0.0)
@@ -95,12 +113,12 @@ def _of_plots(
     return middle + beside * np.minimum(alone / fragments, 1.0)[..., None, None]
 
 
-def _median_peak(amplitude: FloatArray) -> FloatArray:
+def _median_peak(target: TargetModel, amplitude: FloatArray) -> FloatArray:
     """Median of the largest envelope over a burst's pulses, amplitudes of shape (n, positions)."""
     low = np.zeros(len(amplitude))
-    high = amplitude.max(axis=1) + 10.0
+    high = 5.0 * amplitude.max(axis=1) + 10.0
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2.0
-        below = chndtr(middle[:, None] ** 2, 2.0, amplitude**2).prod(axis=1) < 0.5
+        below = (1.0 - target(middle[:, None], amplitude)).prod(axis=1) < 0.5
         low, high = np.where(below, middle, low), np.where(below, high, middle)
     return (low + high) / 2.0

@@ -77,5 +77,5 @@ def design(parameters: ExtractorParameters, rings: int, step: float) -> Design:
         false_plots_per_scan=parameters.false_plots_per_scan,
         longest=math.ceil(parameters.longest_burst * pulses),
         gap=gap,
-        accuracy=method.accuracy(noise, parameters.pattern, pulses),
+        accuracy=method.accuracy(noise, parameters.pattern, pulses, parameters.fluctuation),
     )

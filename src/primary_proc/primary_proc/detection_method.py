@@ -48,13 +48,14 @@ class DetectionMethod(ABC):
         """
 
     @abstractmethod
-    def accuracy(self, noise: float, pattern: str, pulses: float) -> AccuracyTable:
+    def accuracy(self, noise: float, pattern: str, pulses: float, target: str) -> AccuracyTable:
         """Azimuth accuracy against the burst's peak.
 
         Args:
             noise: p_N.
             pattern: antenna pattern's name.
             pulses: N_0.
+            target: what targets do from pulse to pulse, a name in `accuracy_table.TARGETS`.
 
         Returns:
             The table.
@@ -112,18 +113,19 @@ class ProgramMethod(DetectionMethod):
         """
         return noise_probability_for_rate(self.program, false_plots, rings, pulses_per_scan, gap)
 
-    def accuracy(self, noise: float, pattern: str, pulses: float) -> AccuracyTable:
+    def accuracy(self, noise: float, pattern: str, pulses: float, target: str) -> AccuracyTable:
         """Azimuth accuracy; see `DetectionMethod.accuracy`.
 
         Args:
             noise: p_N.
             pattern: antenna pattern's name.
             pulses: N_0.
+            target: what targets do from pulse to pulse, a name in `accuracy_table.TARGETS`.
 
         Returns:
             The table.
         """
-        return accuracy_table(self.program, noise, pattern, pulses)
+        return accuracy_table(self.program, noise, pattern, pulses, target)
 
     def quantiser(self, threshold: npt.NDArray[np.float64]) -> BinaryQuantiser:
         """Make the quantiser.

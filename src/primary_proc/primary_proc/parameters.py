@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from primary_proc.accuracy_table import TARGETS
 from primary_proc.antenna_pattern import PATTERNS
 from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS
 from radar_common.parameters import ParameterError, Parameters, parameter
@@ -59,6 +60,12 @@ class ExtractorParameters(Parameters):
     )
     pattern: str = parameter(
         "gaussian", "two-way amplitude pattern of the antenna", choices=tuple(PATTERNS)
+    )
+    fluctuation: str = parameter(
+        "steady",
+        "echoes within one burst, for the stated azimuth errors: steady (also where they change from turn to turn) "
+        "or fast, independent from pulse to pulse",
+        choices=tuple(TARGETS),
     )
     longest_burst: float = parameter(
         4.0,

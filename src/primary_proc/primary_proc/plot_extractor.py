@@ -70,6 +70,8 @@ class PlotExtractor:
                 self._chain = ExtractionChain(self._parameters, pulses, self._health)
             return joined(finished, self._chain.extract(pulses))
         except ValueError as error:
+            self._chain = None
+            self._stream.restart()
             raise TableError(f"sweeps do not fit the parameters: {error}") from error
 
     def _table(self, found: list[npt.NDArray[np.void]]) -> Table:
