@@ -105,7 +105,7 @@ def import_recording(recording: AsterixRecording, options: ImportOptions) -> Imp
     Raises:
         RecordingError: nothing to import, or several radars and none chosen.
         RotationError: too few reports to tell how the antenna turned.
-        ValueError: impossible false plots.
+        EvaluationError: impossible false plots.
     """
     reports, directions = _one_radar(recording, options.radar)
     midnight = _midnight(recording.captured) if options.midnight is None else options.midnight

@@ -43,6 +43,24 @@ def run(command: Callable[[argparse.Namespace], int], arguments: argparse.Namesp
         return 0
 
 
+def not_negative(text: str) -> float:
+    """Read an argument that is a length or a number of things.
+
+    Args:
+        text: as typed.
+
+    Returns:
+        The number.
+
+    Raises:
+        ArgumentTypeError: it is negative or not finite.
+    """
+    value = float(text)
+    if not 0.0 <= value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a number of zero or more")
+    return value
+
+
 def progress(items: Iterable[Any], text: str, *, total: int | None = None, unit: str) -> Any:
     """Show how far an iteration is, where somebody is looking.
 

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from radar_eval.antenna import Rotation
+from radar_eval.errors import EvaluationError
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -39,12 +40,12 @@ def draw_false_plots(
         (time, range, azimuth): seconds since the epoch in rising order, metres, radians, each shape (n,).
 
     Raises:
-        ValueError: the number is negative, or the ranges do not rise.
+        EvaluationError: the number is negative, or the ranges do not rise.
     """
     if per_scan < 0.0:
-        raise ValueError(f"the number of false plots cannot be negative, got {per_scan:g}")
+        raise EvaluationError(f"the number of false plots cannot be negative, got {per_scan:g}")
     if not 0.0 <= nearest < farthest:
-        raise ValueError(f"false plots need rising ranges, got {nearest:g} to {farthest:g} m")
+        raise EvaluationError(f"false plots need rising ranges, got {nearest:g} to {farthest:g} m")
     number = generator.poisson(per_scan * (stop - start) / rotation.period)
     time = np.sort(generator.uniform(start, stop, number))
     return time, generator.uniform(nearest, farthest, number), rotation.azimuth(time)

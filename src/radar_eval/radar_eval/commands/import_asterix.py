@@ -15,7 +15,7 @@ from radar_common.health import Health
 from radar_common.tables import NANOSECONDS
 from radar_eval import asterix_import
 from radar_eval.asterix_records import NAUTICAL_MILE, decode_records
-from radar_eval.command_line import dropped_lines, progress, run
+from radar_eval.command_line import dropped_lines, not_negative, progress, run
 from radar_eval.recording_file import data_blocks
 
 
@@ -41,9 +41,13 @@ def _parser() -> argparse.ArgumentParser:
         help="take primary positions (I048/040 + I048/130), the offset from the secondary radar "
         "removed; the secondary position becomes the truth",
     )
-    parser.add_argument("--false-plots", type=float, default=0.0, metavar="N", help="to add a scan")
+    parser.add_argument(
+        "--false-plots", type=not_negative, default=0.0, metavar="N", help="to add a scan"
+    )
     parser.add_argument("--seed", type=int, default=0, help="of the false plots (default 0)")
-    parser.add_argument("--min-range", type=float, default=0.0, metavar="NM", help="take no nearer")
+    parser.add_argument(
+        "--min-range", type=not_negative, default=0.0, metavar="NM", help="take no nearer"
+    )
     parser.add_argument("--radar", type=_radar, metavar="SAC/SIC", help="if there are several")
     parser.add_argument(
         "--date",

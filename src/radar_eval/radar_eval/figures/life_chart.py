@@ -57,8 +57,8 @@ def draw_life_chart(evaluation: Evaluation) -> Figure:
             edgecolor="white",
             linewidth=0.6,
         )
-        wide = until - history.confirmed_at > _LABEL_SHARE * evaluation.tables.stop
-        for track in order[wide[order]]:
+        wide = until[order] - history.confirmed_at[order] > _LABEL_SHARE * evaluation.tables.stop
+        for track in order[wide]:
             axes.text(
                 history.confirmed_at[track], line_of[history.label[track]] + 0.04,
                 f" {history.ids[track]}", color="white", fontsize=5.2, va="center", clip_on=True,
