@@ -18,6 +18,8 @@ from radar_eval.errors import EvaluationError
 
 STOP_TIMEOUT = 15.0
 START_TIMEOUT = 60.0
+RUN_TIMEOUT = 600.0
+SECTORS = 32
 
 
 class ChainError(EvaluationError):
@@ -146,14 +148,17 @@ def record_live_chain(
         ChainError: a process did not start or failed.
     """
     logs.mkdir(parents=True, exist_ok=True)
-    # The simulator outruns real time here: a sweep lost by best effort would be the demo's fault, not the chain's.
-    extraction = {"qos_overrides./radar/sweeps.subscription.reliability": "reliable"}
+    # The simulator outruns real time here: what a busy machine is late for has to wait, not to be lost.
+    sweeps = "qos_overrides./radar/sweeps.subscription"
+    extraction = {f"{sweeps}.reliability": "reliable", f"{sweeps}.depth": scans * SECTORS}
     topics = ["/radar/plots", "/radar/tracks", "/truth"]
     simulator = {
         "scenario": scenario,
         "scans": scans,
         "rate": rate,
         "seed": seed,
+        "sectors": SECTORS,
+        "sample": "uint8",
         "wait_for_subscribers": 1,
         "wait_for_truth_subscribers": 1,
     }
@@ -176,7 +181,7 @@ def record_live_chain(
                 logs / "radar_simulator.log",
             )
         )
-        source.wait(timeout=600.0)
+        source.wait(timeout=RUN_TIMEOUT)
 
 
 def _ros_args(settings: Mapping[str, object]) -> list[str]:

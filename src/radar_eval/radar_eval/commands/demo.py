@@ -32,7 +32,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--scenario", default="airport", help="of the simulator (default airport)")
     parser.add_argument("--scans", type=int, default=40, help="antenna turns (default 40)")
     parser.add_argument(
-        "--rate", type=float, default=8.0, help="simulated seconds a second (default 8)"
+        "--rate", type=float, default=5.0, help="simulated seconds a second (default 5)"
     )
     parser.add_argument("--seed", type=int, default=1, help="of the simulator (default 1)")
     return parser
