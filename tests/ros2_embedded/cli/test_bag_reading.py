@@ -141,7 +141,7 @@ def test_a_truncated_bag_is_one_error(tmp_path, storage, fraction):
 
 
 @settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(data=st.data())
 def test_a_damaged_bag_is_read_or_refused_but_nothing_else(tmp_path_factory, storage, data):
