@@ -8,10 +8,10 @@ import pytest
 from scipy.stats import binom, chi2, ncx2
 
 from primary_proc import cascade_chain
-from primary_proc.antenna_pattern import burst_shape, pulses_in_burst
 from primary_proc.automaton import Program, program_automaton
 from primary_proc.automaton_chain import noise_state, start_end_distribution, step_chain
 from primary_proc.azimuth_accuracy import azimuth_error, nominal_bias
+from primary_proc.burst_shape import burst_shape, pulses_in_burst
 from primary_proc.detection_probability import detection_probability
 from primary_proc.false_alarms import (
     false_plots_per_scan,

@@ -11,8 +11,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.stats import binom, poisson
 
-from primary_proc.antenna_pattern import burst_shape, pulses_in_burst
 from primary_proc.automaton import Program
+from primary_proc.burst_shape import burst_shape, pulses_in_burst
 from primary_proc.design import design
 from primary_proc.detection_probability import detection_probability
 from primary_proc.false_alarms import false_start_probability

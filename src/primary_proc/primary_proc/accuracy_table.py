@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.antenna_pattern import burst_shape
 from primary_proc.automaton import Program
 from primary_proc.automaton_chain import StartEnd, first_detection, start_end_distribution
+from primary_proc.burst_shape import burst_shape
 from primary_proc.single_pulse import (
     fluctuating_probability,
     steady_probability,

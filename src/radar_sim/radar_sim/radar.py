@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from radar_common.antenna_pattern import PATTERNS, Pattern
 from radar_common.frames import TWO_PI
 from radar_common.parameters import ParameterError, Parameters, parameter
-from radar_sim.patterns import PATTERNS, Pattern
 
 SPEED_OF_LIGHT = 299_792_458.0
 

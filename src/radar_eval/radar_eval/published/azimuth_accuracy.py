@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from primary_proc.antenna_pattern import burst_shape
 from primary_proc.automaton import Program
 from primary_proc.azimuth_accuracy import AzimuthError, azimuth_error, nominal_bias
+from primary_proc.burst_shape import burst_shape
 from primary_proc.false_alarms import noise_probability
 from primary_proc.single_pulse import steady_probability, threshold_for
 from radar_eval.published.result import Row

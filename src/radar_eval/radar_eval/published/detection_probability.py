@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from primary_proc.antenna_pattern import burst_shape
 from primary_proc.automaton import Program
+from primary_proc.burst_shape import burst_shape
 from primary_proc.detection_probability import detection_probability
 from primary_proc.false_alarms import noise_probability
 from primary_proc.single_pulse import (

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from radar_common.antenna_pattern import PATTERNS
 from radar_common.parameters import ParameterError
-from radar_sim.patterns import PATTERNS
 from radar_sim.radar import Radar
 
 
