@@ -212,8 +212,8 @@ def _range(item: Description) -> str:
         return ", ".join(item.choices)
     if item.low is None and item.high is None:
         return ""
-    low = "-inf" if item.low is None else f"{item.low:g}"
-    high = "inf" if item.high is None else f"{item.high:g}"
+    low = "-inf" if item.low is None else f"{item.low:.10g}"
+    high = "inf" if item.high is None else f"{item.high:.10g}"
     return f"[{low}, {high}]"
 
 
