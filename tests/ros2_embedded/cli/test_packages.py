@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -115,6 +116,17 @@ def test_the_nearest_overlay_wins(tmp_path, monkeypatch):
 @pytest.mark.parametrize("name", ["sonar_nodes", "sonar-nodes"])
 def test_a_distribution_is_found_under_either_spelling(distribution, name):
     assert [entry.name for entry in executables(name)] == ["fail", "ping", "wait"]
+    assert "sonar_nodes" in package_names()
+
+
+def test_an_editable_distribution_is_a_package_by_its_source(distribution, tmp_path):
+    info = tmp_path / "site" / "sonar_nodes-1.0.dist-info"
+    (info / "RECORD").unlink()
+    source = tmp_path / "my source"
+    source.mkdir()
+    (info / "direct_url.json").write_text(json.dumps({"url": source.as_uri()}))
+    assert "sonar_nodes" not in package_names()
+    (source / "package.xml").touch()
     assert "sonar_nodes" in package_names()
 
 

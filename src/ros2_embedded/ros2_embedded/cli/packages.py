@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import sys
@@ -10,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 _MARKERS = Path("share", "ament_index", "resource_index", "packages")
 
@@ -122,8 +124,12 @@ def _package_name(distribution: str) -> str:
 
 def _is_ros_package(distribution: metadata.Distribution) -> bool:
     """Tell whether a distribution brings the ament marker that every ROS package installs."""
-    return any(
-        _MARKERS.parts == Path(*file.parts[-len(_MARKERS.parts) - 1 : -1]).parts
+    if any(
+        file.parts[-len(_MARKERS.parts) - 1 : -1] == _MARKERS.parts
         for file in distribution.files or ()
-        if len(file.parts) > len(_MARKERS.parts)
-    )
+    ):
+        return True
+    # An editable installation has no data files, but the source of the package.
+    origin = json.loads(distribution.read_text("direct_url.json") or "{}")
+    source = urlsplit(origin.get("url", ""))
+    return source.scheme == "file" and Path(unquote(source.path), "package.xml").is_file()
