@@ -34,6 +34,8 @@ def node():
         ("rclpy.action", "actions"),
         ("rclpy.lifecycle", "lifecycle nodes"),
         ("rclpy.waitable", "waitables"),
+        ("rclpy.parameter_client", "parameter clients"),
+        ("rclpy.parameter_event_handler", "parameter event handlers"),
         ("rclpy.service_introspection", "service introspection"),
         ("rclpy.type_description_service", "type description service"),
     ],

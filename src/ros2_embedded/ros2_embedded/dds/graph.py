@@ -21,9 +21,10 @@ from cyclonedds.builtin import (
     BuiltinTopicDcpsPublication,
     BuiltinTopicDcpsSubscription,
 )
-from cyclonedds.core import InstanceState, Qos
+from cyclonedds.core import DDSException, InstanceState, Qos
 
 from ros2_embedded.dds.endpoints import Reader, Writer
+from ros2_embedded.dds.library import DdsError
 from ros2_embedded.dds.participant import Participant
 from ros2_embedded.messages.classes import message_class
 from ros2_embedded.messages.codec import deserialize, serialize
@@ -169,7 +170,14 @@ class Graph:
         self._publish()
 
     def refresh(self) -> None:
-        """Take in the news that have arrived."""
+        """Take in the news that have arrived; none arrive after the participant has gone."""
+        try:
+            self._take_news()
+        except (DdsError, DDSException):
+            if not self._participant.closed:
+                raise
+
+    def _take_news(self) -> None:
         with self._lock:
             while (
                 taken := self._reader.take(lambda data: deserialize(data, _INFO_TYPE))
@@ -279,4 +287,8 @@ class Graph:
                     for (namespace, name), endpoints in self._local.items()
                 ],
             )
-            self._writer.write(serialize(info))
+            try:
+                self._writer.write(serialize(info))
+            except DdsError:
+                if not self._participant.closed:
+                    raise

@@ -48,7 +48,7 @@ class Participant:
         self.domain_id = domain_id
         self._topics: dict[tuple[str, str, bool], Topic] = {}
         self._topics_lock = threading.Lock()
-        self._closed = False
+        self.closed = False
         with self._domains_lock:
             domain, users = self._domains.get(domain_id, (None, 0))
             if domain is None:
@@ -92,9 +92,9 @@ class Participant:
 
     def close(self) -> None:
         """Leave the domain and delete all endpoints; a second time does nothing."""
-        if self._closed:
+        if self.closed:
             return
-        self._closed = True
+        self.closed = True
         _open_participants.discard(self)
         self._topics.clear()
         delete_entity(self.entity)

@@ -14,7 +14,6 @@ from rclpy._work import WorkTracker
 from rclpy.context import Context
 from rclpy.task import Future, Task
 
-from ros2_embedded.dds.library import DdsError
 from ros2_embedded.dds.waitset import Guard, WaitSet
 
 if TYPE_CHECKING:
@@ -179,7 +178,7 @@ class WorkFinder:
             self._listening = False
         self._guard.take()
         if self._graph.condition in ready:
-            self._refresh_graph()
+            self._graph.refresh()
         found = [
             (entity, node)
             for entity, node in entities
@@ -188,12 +187,6 @@ class WorkFinder:
         self._resumed_in_round = False
         self._round.extend(found)
         return bool(found) or end is None or time.monotonic() < end
-
-    def _refresh_graph(self) -> None:
-        try:
-            self._graph.refresh()
-        except DdsError:
-            return  # The context is being shut down.
 
     def _handler_of(self, entity: Entity) -> Task[Any]:
         # Until it is taken, the entity must not be found ready again.

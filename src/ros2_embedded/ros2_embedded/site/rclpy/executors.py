@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import threading
 import warnings
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -80,6 +81,7 @@ class MultiThreadedExecutor(Executor):
             )
         self._running: list[Task[Any]] = []
         self._executor = ThreadPoolExecutor(num_threads)
+        _start_all_threads(self._executor, num_threads)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Start one callback, or continue one; see :meth:`Executor.spin_once`."""
@@ -107,3 +109,12 @@ class MultiThreadedExecutor(Executor):
         for finished in [task for task in self._running if task.done()]:
             self._running.remove(finished)
             finished.result()
+
+
+def _start_all_threads(pool: ThreadPoolExecutor, number: int) -> None:
+    # A pool starts its threads when they are needed. If SIGINT interrupts that, a thread runs
+    # that the pool does not know, and the program waits for it for ever at its end.
+    together = threading.Barrier(number + 1)
+    for _ in range(number):
+        pool.submit(together.wait)
+    together.wait()

@@ -3,8 +3,8 @@
 
 A handler written in Python runs only when the main thread is back in Python, and that may
 be waiting inside DDS. Python can write the number of a signal to a pipe at once; a thread
-reads it and invalidates the contexts, which wakes all waiting. After SIGINT, Python then
-raises KeyboardInterrupt in the main thread.
+reads it and invalidates the contexts, which wakes all waiting. Then the handler runs; after
+SIGINT, it has Python raise KeyboardInterrupt in the main thread.
 """
 
 from __future__ import annotations
@@ -49,16 +49,14 @@ class _SignalPipe:
             if options & option and number not in self._previous:
                 handler = signal.getsignal(number)
                 self._previous[number] = handler
-                # A handler of Python must be there for Python to write to the pipe.
-                if not callable(handler):
-                    signal.signal(number, _take_notice)
+                signal.signal(number, self._handle)
         self.options = SignalHandlerOptions(self.options | options)
 
     def uninstall(self) -> None:
         if threading.current_thread() is not threading.main_thread():
             return
         for number, handler in self._previous.items():
-            if signal.getsignal(number) is _take_notice:
+            if signal.getsignal(number) == self._handle:
                 signal.signal(number, handler)
         self._previous.clear()
         self.options = SignalHandlerOptions.NO
@@ -78,10 +76,16 @@ class _SignalPipe:
 
     def _react(self, descriptor: int) -> None:
         while numbers := os.read(descriptor, 16):
-            if any(number in self._previous for number in numbers):
-                for context in list(initialized_contexts):
-                    context.invalidate()
+            # A program may have put a handler of its own in our place meanwhile.
+            if any(signal.getsignal(number) == self._handle for number in numbers):
+                _invalidate_contexts()
         os.close(descriptor)
+
+    def _handle(self, number: int, frame: FrameType | None) -> None:
+        _invalidate_contexts()
+        previous = self._previous.get(number)
+        if callable(previous):
+            previous(number, frame)
 
 
 _pipe = _SignalPipe()
@@ -110,5 +114,6 @@ def uninstall_signal_handlers() -> None:
     _pipe.uninstall()
 
 
-def _take_notice(number: int, frame: FrameType | None) -> None:
-    """Keep the program alive; the thread does the rest."""
+def _invalidate_contexts() -> None:
+    for context in list(initialized_contexts):
+        context.invalidate()

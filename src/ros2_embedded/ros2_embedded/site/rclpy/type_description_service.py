@@ -1,4 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
 """The place of the type description service, not offered."""
 
-raise NotImplementedError("the type description service: not offered by ros2_embedded")
+raise NotImplementedError("the type description service is not offered by ros2_embedded")

@@ -1,4 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The place of waitables, not offered."""
+"""The place of waitables, which are not offered."""
 
-raise NotImplementedError("waitables: not offered by ros2_embedded")
+raise NotImplementedError("waitables are not offered by ros2_embedded")
