@@ -155,7 +155,8 @@ def test_crossing_north_is_nothing_special(scene, run, tracker, sense, direction
     assert set(late) <= set(rows["plot_range"].tolist())
 
 
-def test_misses_are_counted_once_a_turn(scene, run, tracker):
+def test_misses_are_counted_once_a_turn(scene, run):
+    tracker = Tracker(TrackerParameters(confirmed_misses=6))
     world = scene(seed=8)
     world.fly((30e3, 3e3), (-100.0, 10.0), end=40.0)
     world.fly((-20e3, -20e3), (90.0, 10.0), end=120.0)
@@ -188,7 +189,8 @@ def test_tracks_live_through_a_change_of_the_period(scene, run, tracker, factor)
     assert_one_track_each(rows, times, first.truths[: len(FLIGHTS)], largest=400.0)
 
 
-def test_a_lost_sector_ends_only_the_tracks_in_it(scene, run, tracker):
+def test_a_lost_sector_ends_only_the_tracks_in_it(scene, run):
+    tracker = Tracker(TrackerParameters(confirmed_misses=6))
     world = scene(seed=11)
     world.fly((0.0, 30e3), (20.0, 100.0), end=120.0)
     world.fly((0.0, -30e3), (20.0, 100.0), end=120.0)

@@ -27,7 +27,6 @@ _COMPETITORS = 1 / 32
 _RESTART = 5.0
 _CHANGE = 0.003
 _CONFIRMED_FIRST = 1e4
-_LEAST_GAIN = 1e-3
 _SECONDS_PER_HOUR = 3600.0
 
 
@@ -138,10 +137,10 @@ class Tracker:
             now = plot < ripe
             unclaimed[plot[now]] = False
             untracked[plot[now & confirmed[edges]]] = False
-            out.append(
-                self._tracks.update(gated.track[edges], plots[plot], gain[edges], self._threshold())
-            )
-            self._queue.take_also(plot[~now] - ripe)
+            if len(edges):
+                gains, threshold = gain[edges], self._threshold()
+                out.append(self._tracks.update(gated.track[edges], plots[plot], gains, threshold))
+                self._queue.take_also(plot[~now] - ripe)
         self._clutter.observe(plots.range[:ripe][untracked])
         if unclaimed.any():
             self._open(plots[:ripe][unclaimed], out)
@@ -157,11 +156,18 @@ class Tracker:
     def _choose(
         self, gated: Gated, gain: FloatArray, confirmed: npt.NDArray[np.bool_], ripe: int
     ) -> npt.NDArray[np.intp]:
-        against_none = gain - score.miss(self.parameters.detection_probability)
-        weight = np.maximum(against_none, _LEAST_GAIN) + _CONFIRMED_FIRST * confirmed
-        edges = ASSOCIATIONS[self.parameters.association](
-            GateGraph(gated.track, gated.plot, weight)
-        )
+        weight = gain - score.miss(self.parameters.detection_probability)
+        # In a gate so wide that a false plot is likelier than the target's, a miss is the better guess.
+        likely = np.flatnonzero(weight > 0.0)
+        edges = likely[
+            ASSOCIATIONS[self.parameters.association](
+                GateGraph(
+                    gated.track[likely],
+                    gated.plot[likely],
+                    (weight + _CONFIRMED_FIRST * confirmed)[likely],
+                )
+            )
+        ]
         # A track that only plots still to come can interest waits for their competitors.
         urgent = np.zeros(len(self._tracks), bool)
         urgent[gated.track[gated.plot < ripe]] = True
