@@ -144,16 +144,26 @@ class World:
         return target[np.searchsorted(time, plots.time)]
 
 
+@pytest.fixture(scope="session")
+def new_world():
+    """Make six targets, two of them near each other, one of them across north."""
+
+    def make():
+        start = np.array(
+            [[20e3, 5e3], [-12e3, 30e3], [-30e3, -8e3], [3e3, -25e3], [4.2e3, -25e3], [2e3, 18e3]]
+        )
+        velocity = np.array(
+            [[150, 20], [-60, 90], [100, -10], [20, -80], [22, -81], [-40, 5]], dtype=float
+        )
+        return World(start, velocity)
+
+    return make
+
+
 @pytest.fixture
-def world():
-    """Six targets, two of them near each other, one of them across north."""
-    start = np.array(
-        [[20e3, 5e3], [-12e3, 30e3], [-30e3, -8e3], [3e3, -25e3], [4.2e3, -25e3], [2e3, 18e3]]
-    )
-    velocity = np.array(
-        [[150, 20], [-60, 90], [100, -10], [20, -80], [22, -81], [-40, 5]], dtype=float
-    )
-    return World(start, velocity)
+def world(new_world):
+    """A world of the test's own."""
+    return new_world()
 
 
 @pytest.fixture

@@ -59,16 +59,18 @@ class Page(HTMLParser):
         self.words.append(data)
 
 
-@pytest.fixture
-def evaluation(world):
+@pytest.fixture(scope="module")
+def evaluation(new_world):
+    world = new_world()
     plots = world.plots()
     return evaluate(world.tables(plots, world.tracks(plots, world.owner(plots))), ScoreOptions())
 
 
-@pytest.fixture
-def report(evaluation, tmp_path):
-    write_report(evaluation, RUN, Health(), "A <small> world", tmp_path / "deep" / "report")
-    return tmp_path / "deep" / "report"
+@pytest.fixture(scope="module")
+def report(evaluation, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("reports") / "deep" / "report"
+    write_report(evaluation, RUN, Health(), "A <small> world", folder)
+    return folder
 
 
 def test_the_page_stands_by_itself(report):

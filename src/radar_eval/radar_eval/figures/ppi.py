@@ -110,16 +110,17 @@ def _draw_plots(axes: Axes, evaluation: Evaluation) -> None:
     rows, label = evaluation.tables.plots.rows, evaluation.labels.target
     x, y = enu_from_polar(rows["range"], rows["azimuth"])
     false = label == FALSE
-    # Many false plots must make a haze, not a wall: the more there are, the fainter is each.
-    alpha = float(np.clip(16_000 / max(int(np.sum(false)), 1), 0.22, 0.75))
-    axes.plot(
-        x[false], y[false], linestyle="none", marker=".", markersize=1.6,
-        markeredgewidth=0.0, color=style.NIGHT_FALSE, alpha=alpha, zorder=3,
-    )  # fmt: skip
-    axes.plot(
-        x[~false], y[~false], linestyle="none", marker=".", markersize=2.6,
-        markeredgewidth=0.0, color=style.NIGHT_PLOT, alpha=0.55, zorder=4,
-    )  # fmt: skip
+    # Many plots must make a haze, not a wall: the more there are, the smaller and fainter is each.
+    haze = float(np.clip(16_000 / max(int(np.sum(false)), 1), 0.22, 0.85))
+    size = float(np.clip(2.0 * (20_000 / max(len(rows), 1)) ** 0.25, 1.6, 3.8))
+    for chosen, colour, alpha, scale, layer in (
+        (false, style.NIGHT_FALSE, haze, 1.0, 3.0),
+        (~false, style.NIGHT_PLOT, 0.6, 1.5, 4.0),
+    ):
+        axes.plot(
+            x[chosen], y[chosen], linestyle="none", marker=".", markersize=scale * size,
+            markeredgewidth=0.0, color=colour, alpha=alpha, zorder=layer,
+        )  # fmt: skip
 
 
 def _draw_truth(axes: Axes, evaluation: Evaluation) -> None:
