@@ -39,7 +39,14 @@ class Pipeline(Protocol):
     """What a processing package offers: tables in, tables out."""
 
     def process(self, table: Table, /) -> Table:
-        """Take in one message."""
+        """Take in one message.
+
+        Args:
+            table: message.
+
+        Returns:
+            What came out.
+        """
 
     def flush(self) -> Table:
         """Give out what still waits for messages to come."""
