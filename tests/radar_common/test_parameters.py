@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 import pytest
 import yaml
 
@@ -106,3 +107,7 @@ def test_the_table_has_a_row_for_each_parameter():
     assert table.count("\n") == 2 + len(describe(GateParameters))
     assert "| `smallest` | `1.0` | sigma | [0.1, 10] | smallest gate |" in table
     assert "[1, 16] | plots to confirm (fixed at start) |" in table
+
+
+def test_a_number_of_numpy_serves_as_a_float():
+    assert GateParameters(smallest=np.float64(2.0)).smallest == 2.0

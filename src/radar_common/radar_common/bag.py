@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Final, Self
 
 import numpy as np
 from rosbags.highlevel import AnyReader, AnyReaderError
@@ -41,7 +41,7 @@ _TYPES = MessageTypes(
     Time=_STORE.types["builtin_interfaces/msg/Time"],
     bytes_of=lambda data: data,
 )
-_JAZZY_BAG_VERSION = 9
+_JAZZY_BAG_VERSION: Final = 9
 _FOREVER = QosTime(9223372036, 854775807)
 _RELIABLE = Qos(
     QosHistory.KEEP_LAST,

@@ -10,14 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from radar_common.tables import NANOSECONDS, Table
 
-_DATATYPES = {
+_DATATYPES: dict[np.dtype[Any], int] = {
     np.dtype(np.int8): 1,
     np.dtype(np.uint8): 2,
     np.dtype(np.int16): 3,
@@ -138,7 +138,7 @@ def _field(dtype: np.dtype[np.void], name: str) -> tuple[np.dtype[Any], int, int
 
 
 def _layout(message: Any, stride: int) -> np.dtype[np.void]:
-    order = ">" if message.is_bigendian else "<"
+    order: Literal["<", ">"] = ">" if message.is_bigendian else "<"
     names, formats, offsets = [], [], []
     for field in message.fields:
         if field.datatype not in _DTYPES:

@@ -15,7 +15,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Self, get_type_hints
+from typing import Any, Self, cast, get_type_hints
 
 import yaml
 
@@ -118,7 +118,11 @@ def describe(cls: type[Parameters]) -> list[Description]:
     kinds = get_type_hints(cls)
     return [
         Description(
-            name=field.name, kind=kinds[field.name], default=field.default, **field.metadata
+            name=field.name,
+            kind=kinds[field.name],
+            # `parameter` always gives a default, which a field in general need not have.
+            default=cast(bool | float | str, field.default),
+            **field.metadata,
         )
         for field in dataclasses.fields(cls)
     ]
@@ -193,7 +197,7 @@ def to_markdown(cls: type[Parameters]) -> str:
 
 
 def _check(item: Description, value: Any) -> None:
-    if item.kind is float and type(value) is int:
+    if item.kind is float and isinstance(value, int | float) and not isinstance(value, bool):
         value = float(value)
     if type(value) is not item.kind:
         raise ParameterError(f"{item.name} must be {item.kind.__name__}, got {value!r}")
@@ -201,10 +205,12 @@ def _check(item: Description, value: Any) -> None:
         raise ParameterError(f"{item.name} must be one of {', '.join(item.choices)}, got {value!r}")
     if isinstance(value, float) and not math.isfinite(value):
         raise ParameterError(f"{item.name} must be finite, got {value}")
-    below = item.low is not None and value < item.low
-    above = item.high is not None and value > item.high
-    if below or above:
+    if not isinstance(value, str) and not _within(value, item.low, item.high):
         raise ParameterError(f"{item.name} must be in {_range(item)}, got {value}")
+
+
+def _within(value: float, low: float | None, high: float | None) -> bool:
+    return (low is None or value >= low) and (high is None or value <= high)
 
 
 def _range(item: Description) -> str:

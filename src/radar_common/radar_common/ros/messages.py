@@ -26,7 +26,7 @@ WARNING_PERIOD = 10.0
 def _byte_array(data: npt.NDArray[np.uint8]) -> array.array[int]:
     # The generated setter checks every element of anything but an array.array.
     copy = array.array("B")
-    copy.frombytes(memoryview(data))
+    copy.frombytes(data.data)
     return copy
 
 
