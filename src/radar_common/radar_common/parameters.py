@@ -205,7 +205,7 @@ def _check(item: Description, value: Any) -> None:
         raise ParameterError(f"{item.name} must be one of {', '.join(item.choices)}, got {value!r}")
     if isinstance(value, float) and not math.isfinite(value):
         raise ParameterError(f"{item.name} must be finite, got {value}")
-    if not isinstance(value, str) and not _within(value, item.low, item.high):
+    if isinstance(value, int | float) and not _within(value, item.low, item.high):
         raise ParameterError(f"{item.name} must be in {_range(item)}, got {value}")
 
 
