@@ -85,16 +85,17 @@ def encode(table: Table, types: MessageTypes) -> Any:
 
 
 def decode(message: Any, expected: np.dtype[np.void] | None = None) -> Table:
-    """Read the table that a point cloud holds, as a view of its data.
+    """Read the table that a point cloud holds, as a view of its data if that has the layout expected.
 
-    Fields may stand in any order and beside others; names, types and counts must be those of `expected`.
+    Fields may stand in any order and beside others, in either order of bytes; names, types and counts must be those
+    of `expected`.
 
     Args:
         message: PointCloud2 of any message family.
         expected: dtype whose fields are wanted; None takes all fields as they are.
 
     Returns:
-        The table; its rows share the message's memory.
+        The table, its rows of dtype `expected`.
 
     Raises:
         TableError: sizes contradict each other, or a field is missing, has another type or another count.
@@ -176,4 +177,4 @@ def _select(rows: npt.NDArray[np.void], expected: np.dtype[np.void]) -> npt.NDAr
             raise TableError(
                 f"field {name!r} is {base}[{count}], expected {wanted_base}[{wanted_count}]"
             )
-    return rows[list(expected.names or ())]
+    return rows[list(expected.names or ())].astype(expected)
