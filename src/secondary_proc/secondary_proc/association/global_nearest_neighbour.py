@@ -49,9 +49,10 @@ def _assign(track: IndexArray, plot: IndexArray, gain: npt.NDArray[np.float64]) 
     weights = csr_array(
         (
             np.concatenate([alone - gain, np.full(count, alone)]),
+            # The solver of SciPy 1.11 takes 32-bit indices only.
             (
-                np.concatenate([row, np.arange(count)]),
-                np.concatenate([column, len(plots) + np.arange(count)]),
+                np.concatenate([row, np.arange(count)]).astype(np.int32),
+                np.concatenate([column, len(plots) + np.arange(count)]).astype(np.int32),
             ),
         ),
         shape=(count, len(plots) + count),
