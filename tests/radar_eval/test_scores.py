@@ -51,6 +51,20 @@ def test_position_errors_are_root_mean_squares(world):
     assert scores["rms_raw_of_tracked_m"] == pytest.approx(40.0, abs=0.1)
 
 
+def test_a_false_plot_in_a_track_shows_in_the_error_over_any_plot(world):
+    plots = world.plots()
+    owner = world.owner(plots)
+    tracks = world.tracks(plots, owner)
+    misled = np.flatnonzero(tracks.rows["hits"] == 20)
+    tracks.rows["x"][misled] += 600.0
+    plots.rows["range"][misled] += 1300.0
+    tracks.rows["plot_range"][misled] += 1300.0
+    scores = scored(world, plots, tracks)
+    assert scores["rms_tracked_m"] < 0.01
+    # One row in twenty of each track is off.
+    assert scores["rms_tracked_any_plot_m"] == pytest.approx(600.0 / np.sqrt(20), rel=0.01)
+
+
 def test_a_broken_track_counts_twice(world):
     plots = world.plots()
     owner = world.owner(plots)

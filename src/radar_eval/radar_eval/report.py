@@ -31,7 +31,8 @@ _SECTIONS = {
         "scans_to_confirmation_median",
     ),
     "Position": (
-        "rms_raw_m", "rms_tracked_m", "rms_raw_of_tracked_m", "rms_velocity_m_s", "gospa_m",
+        "rms_raw_m", "rms_tracked_m", "rms_raw_of_tracked_m", "rms_tracked_any_plot_m",
+        "rms_velocity_m_s", "gospa_m",
         "gospa_missed", "gospa_false", "gospa_cutoff_m",
     ),
     "Plots": (

@@ -20,6 +20,7 @@ MEANINGS = {
     "rms_raw_m": "position error of the targets' plots, root mean square (m)",
     "rms_tracked_m": "position error of confirmed tracks past their tenth plot (m)",
     "rms_raw_of_tracked_m": "position error of the plots that these were updated with (m)",
+    "rms_tracked_any_plot_m": "position error of tracks, also where a false plot misled them (m)",
     "rms_velocity_m_s": "velocity error of the same tracks (m/s)",
     "plots": "plots",
     "plots_per_scan": "plots a scan",

@@ -31,6 +31,10 @@ class Errors:
     time: FloatArray
     position: FloatArray
 
+    def __getitem__(self, chosen: npt.NDArray[np.bool_]) -> Errors:
+        """Select observations."""
+        return Errors(self.index[chosen], self.time[chosen], self.position[chosen])
+
 
 def accuracy_scores(evaluation: Evaluation) -> dict[str, float]:
     """Score the position errors, as root mean squares.
@@ -39,15 +43,17 @@ def accuracy_scores(evaluation: Evaluation) -> dict[str, float]:
         evaluation: of a bag.
 
     Returns:
-        Of the targets' plots; of settled confirmed tracks; of the very plots that these were updated with; and of
-        the velocity of the same rows where the truth has one.
+        Of the targets' plots; of settled confirmed tracks, updated with plots of their targets, and with any plots; of
+        the very plots of the former; and of the velocity of the same rows where the truth has one.
     """
-    raw, tracked = plot_errors(evaluation), track_errors(evaluation)
+    raw, any_plot = plot_errors(evaluation), track_errors(evaluation)
+    tracked = any_plot[_updated_rightly(evaluation, any_plot.index)]
     updating = evaluation.history.plot_of_row[tracked.index]
     return {
         "rms_raw_m": _rms(raw.position),
         "rms_tracked_m": _rms(tracked.position),
         "rms_raw_of_tracked_m": _rms(raw.position[np.isin(raw.index, updating)]),
+        "rms_tracked_any_plot_m": _rms(any_plot.position),
         "rms_velocity_m_s": _rms(_velocity_errors(evaluation, tracked)),
     }
 
@@ -94,6 +100,12 @@ def track_errors(evaluation: Evaluation) -> Errors:
     rows = tracks.rows[index]
     error = np.hypot(rows["x"] - truth["x"], rows["y"] - truth["y"])
     return Errors(index[present], time[present], error[present])
+
+
+def _updated_rightly(evaluation: Evaluation, index: IntArray) -> npt.NDArray[np.bool_]:
+    history = evaluation.history
+    label = history.label[history.track_of_row[index]]
+    return np.asarray(evaluation.labels.target[history.plot_of_row[index]] == label)
 
 
 def _velocity_errors(evaluation: Evaluation, settled: Errors) -> FloatArray:
