@@ -14,7 +14,7 @@ setup: $(INSTALLED)
 $(INSTALLED): requirements-dev.txt $(wildcard src/*/setup.cfg) src/ros2_embedded/pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --upgrade pip
-	$(BIN)/pip install --quiet -r requirements-dev.txt -e src/ros2_embedded $(ROS_PACKAGES:%=-e src/%)
+	PYTHONWARNINGS=ignore $(BIN)/pip install --quiet -r requirements-dev.txt -e src/ros2_embedded $(ROS_PACKAGES:%=-e src/%)
 	touch $@
 
 demo: setup
