@@ -95,20 +95,26 @@ class MultiThreadedExecutor(Executor):
 
     def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool]) -> None:
         try:
-            task, _, _ = self.wait_for_ready_callbacks(timeout_sec, None, condition)
+            task, _, _ = self.wait_for_ready_callbacks(
+                timeout_sec, None, lambda: condition() or self._has_failed_task()
+            )
         except (
             ExternalShutdownException,
             ShutdownException,
             TimeoutException,
             ConditionReachedException,
         ):
-            return
-        self._executor.submit(self._run, task)
-        if task not in self._running:
-            self._running.append(task)
+            pass
+        else:
+            self._executor.submit(self._run, task)
+            if task not in self._running:
+                self._running.append(task)
         for finished in [task for task in self._running if task.done()]:
             self._running.remove(finished)
             finished.result()
+
+    def _has_failed_task(self) -> bool:
+        return any(task.done() and task.exception() is not None for task in self._running)
 
 
 def _start_all_threads(pool: ThreadPoolExecutor, number: int) -> None:
