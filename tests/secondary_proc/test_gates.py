@@ -39,7 +39,10 @@ def store_of(random, count, spread):
         second.time, second.range, second.azimuth, first.position + step, second.covariance
     )
     columns = first_state(first, second, 0.3)
-    store.append(columns | {"id": np.arange(count), "memory": 0.0, "rule": 0, "score": 0.0}, count)
+    store.append(
+        columns | {"id": np.arange(count), "memory": 0.0, "rule": 0, "score": 0.0, "best": 0.0},
+        count,
+    )
     return store
 
 

@@ -172,6 +172,21 @@ def test_misses_are_counted_once_a_turn(scene, run):
     np.testing.assert_allclose(gaps, 4.0, atol=0.05)
 
 
+def test_a_track_ends_when_its_score_has_fallen_by_more_than_its_misses_may_cost(scene, run):
+    world = scene(seed=17)
+    world.fly((30e3, 3e3), (-100.0, 10.0), end=40.0)
+    world.fly((-20e3, -20e3), (90.0, 10.0), end=60.0)
+    messages = list(world.messages(end=64.0))
+    tracker = Tracker(TrackerParameters(scan_period=4.0))
+    run(tracker, messages[: 44 * 8], flush=False)
+    store = tracker._tracks._store
+    assert (store["best"] >= store["score"]).all()
+    store["best"][store["misses"] > 0] += 30.0
+    rows, _ = run(tracker, messages[44 * 8 :], flush=False)
+    ended = rows["status"] == TrackStatus.ENDED
+    assert list(rows["misses"][ended]) == [2]
+
+
 @pytest.mark.parametrize("factor", [3.0, 1.0 / 3.0])
 def test_tracks_live_through_a_change_of_the_period(scene, run, tracker, factor):
     first, second = scene(seed=9), scene(seed=10, period=4.0 * factor)

@@ -64,7 +64,7 @@ class TrackerParameters(Parameters):
         2, "scans in a row without a plot that end a tentative track", low=1, high=20
     )
     confirmed_misses: int = parameter(
-        9, "scans in a row without a plot that end a confirmed track", low=1, high=50
+        12, "scans in a row without a plot that end a confirmed track", low=1, high=50
     )
     smoother: str = parameter("kalman", "filter of position and velocity", choices=tuple(SMOOTHERS))
     acceleration: float = parameter(

@@ -66,6 +66,25 @@ def miss(detection_probability: float) -> float:
     return float(np.log1p(-detection_probability))
 
 
+def is_spent(
+    best: FloatArray, score: FloatArray, misses: int, detection_probability: float
+) -> npt.NDArray[np.bool_]:
+    """Tell which tracks have lost more since their best than a row of misses costs.
+
+    False plots now and then end every row of misses, but do not bring back what the misses cost.
+
+    Args:
+        best: highest score so far, shape (n,).
+        score: present one, shape (n,).
+        misses: in a row that end a track anyhow.
+        detection_probability: of a plot per scan.
+
+    Returns:
+        Shape (n,).
+    """
+    return best - score > -(misses + 1) * miss(detection_probability)
+
+
 def confirmation_threshold(candidates_per_hour: float, false_tracks_per_hour: float) -> float:
     """Score above which tracks count as true.
 

@@ -25,6 +25,7 @@ COLUMNS = np.dtype(
         ("misses", "u4"),
         ("rule", "u1"),  # memory of the initiation rule
         ("score", "f8"),
+        ("best", "f8"),  # highest score so far
         ("plot_range", "f8"),
         ("plot_azimuth", "f8"),
     ]

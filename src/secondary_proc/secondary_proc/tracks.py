@@ -9,11 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from radar_common.health import Health
-from radar_common.tables import TrackStatus
+from radar_common.tables import TRACK, TrackStatus
 from secondary_proc import score, track_table
 from secondary_proc.gates import Gated, gate
 from secondary_proc.initiation import INITIATIONS, Evidence
-from secondary_proc.motion import FloatArray, noise_density
+from secondary_proc.motion import FloatArray, noise_density, predict_state
 from secondary_proc.opening import first_state
 from secondary_proc.plots import Plots
 from secondary_proc.rotation import Rotation
@@ -28,7 +28,7 @@ IndexArray = npt.NDArray[np.intp]
 Rows = npt.NDArray[np.void]
 
 FASTEST_REVISIT = 0.5
-"""Turns of the antenna that must lie between two plots of one target."""
+"""Turns of the antenna between two plots of one target at least."""
 
 
 class Tracks:
@@ -66,7 +66,7 @@ class Tracks:
             parameters.acceleration, parameters.manoeuvre_acceleration
         )
         self._store.set_memory(self._smoother.memory)
-        self._schedule(np.arange(len(self._store)))
+        self._schedule(np.arange(len(self)))
 
     def synchronise(self, now: float) -> None:
         """Date the last passages anew, after the rotation has been found again.
@@ -75,10 +75,8 @@ class Tracks:
             now: seconds, all plots before have been processed.
         """
         store = self._store
-        state = store["state"]
-        moved = state[:, :2] + state[:, 2:] * (now - store["time"])[:, None]
-        azimuth = np.arctan2(moved[:, 0], moved[:, 1])
-        store["crossing"][:] = self._rotation.last_passage(azimuth, now)
+        moved = predict_state(store["state"], now - store["time"])[:, :2]
+        store["crossing"][:] = self._rotation.last_passage(np.arctan2(*moved.T), now)
         self._schedule(np.arange(len(store)))
 
     def __len__(self) -> int:
@@ -170,6 +168,7 @@ class Tracks:
             ("status", status),
         ):
             store[name][tracks] = values
+        store["best"][tracks] = np.maximum(store["best"][tracks], store["score"][tracks])
         self._health.count("plots in tracks", len(tracks))
         return self._after_plot(tracks, threshold)
 
@@ -189,22 +188,22 @@ class Tracks:
             Two rows of each new track, one for each of its plots.
         """
         room = max(self._parameters.maximum_tracks - len(self._store), 0)
-        if len(first) > room:
-            self._health.drop("candidates over the limit of tracks", len(first) - room)
-            best = np.sort(np.argsort(-scores, kind="stable")[:room])
-            first, second, gap, scores = first[best], second[best], gap[best], scores[best]
+        self._health.drop("candidates over the limit of tracks", max(len(first) - room, 0))
+        best = np.sort(np.argsort(-scores, kind="stable")[:room])
+        first, second, gap, scores = first[best], second[best], gap[best], scores[best]
         count = len(first)
         columns = first_state(first, second, self._quiet) | {
             "id": self._next_id + np.arange(count),
             "memory": np.zeros(count, self._smoother.memory),
             "rule": self._initiation.opened(gap),
             "score": scores,
+            "best": scores,
         }
         tracks = self._store.append(columns, count)
         self._next_id += count
         self._health.count("tracks opened", count)
         opened = track_table.first_rows(self._rows(tracks), first)
-        return np.concatenate([opened, self._after_plot(tracks, threshold)], dtype=opened.dtype)
+        return np.concatenate([opened, self._after_plot(tracks, threshold)], dtype=TRACK)
 
     def miss(self, until: float) -> list[Rows]:
         """Count a miss for every track that the beam has passed without a plot.
@@ -216,13 +215,18 @@ class Tracks:
             Rows of these tracks, predicted to the passage.
         """
         store, out = self._store, []
+        detection, allowed = (
+            self._parameters.detection_probability,
+            self._parameters.confirmed_misses,
+        )
         while len(late := np.flatnonzero(store["due"] < until)):
             status = store["status"][late]
             tentative = status == TrackStatus.TENTATIVE
             store["misses"][late] += 1
-            store["score"][late] += score.miss(self._parameters.detection_probability)
+            store["score"][late] += score.miss(detection)
             store["crossing"][late] = store["expected"][late]
-            worn = store["misses"][late] >= self._parameters.confirmed_misses
+            spent = score.is_spent(store["best"][late], store["score"][late], allowed, detection)
+            worn = spent | (store["misses"][late] >= allowed)
             status[~tentative] = np.where(worn, TrackStatus.ENDED, TrackStatus.COASTING)[~tentative]
             store["status"][late] = status
             self._health.count("misses of confirmed tracks", int(np.count_nonzero(~tentative)))
@@ -238,9 +242,8 @@ class Tracks:
         Returns:
             Their rows.
         """
-        store = self._store
-        store["status"][:] = TrackStatus.ENDED
-        rows = self._rows(np.arange(len(store)), at=store["time"].copy())
+        self._store["status"][:] = TrackStatus.ENDED
+        rows = self._rows(np.arange(len(self)), at=self._store["time"].copy())
         self._bury()
         return rows
 
@@ -272,8 +275,6 @@ class Tracks:
         self._health.count("tracks confirmed", int(np.count_nonzero(verdict.confirmed)))
 
     def _schedule(self, tracks: IndexArray) -> None:
-        if not len(tracks):
-            return
         store = self._store
         following, margin = passage(
             store["state"][tracks],
