@@ -62,7 +62,9 @@ def test_sigint_interrupts(spin, domain_id):
 
 def test_sigterm_shuts_down(domain_id):
     output, code = run(signal.SIGTERM, domain_id)
-    assert output == ["shut down", "not ok"]
+    # It returns if the signal comes while it is not waiting.
+    assert output[0] in ("returned", "shut down")
+    assert output[1] == "not ok"
     assert code == 0
 
 
