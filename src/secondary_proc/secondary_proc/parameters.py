@@ -93,6 +93,13 @@ class TrackerParameters(Parameters):
         low=1.0,
         high=10.0,
     )
+    false_plots_nearer: float = parameter(
+        0.02,
+        "false plots to expect nearer to the prediction than the plot a track takes, at most; counts where gates "
+        "have grown wide after misses",
+        low=1e-6,
+        high=1e3,
+    )
     default_range_std: float = parameter(
         50.0, "range error of plots that do not tell theirs", unit="m", low=0.01, high=10000.0
     )

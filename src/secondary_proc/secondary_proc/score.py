@@ -34,6 +34,24 @@ def hit(
     return np.log(detection_probability / expected_false) - distance_squared / 2.0
 
 
+def false_plots_nearer(
+    distance_squared: FloatArray, determinant: FloatArray, density: FloatArray
+) -> FloatArray:
+    """Number of false plots to expect nearer to the prediction than a plot.
+
+    The ellipse through the plot has the area pi d^2 sqrt(det S) (Kuzmin 1967, (4.146)).
+
+    Args:
+        distance_squared: d^2, normalised by the covariance S of the predicted difference, shape (n,).
+        determinant: of S, m^4, shape (n,).
+        density: false plots per square metre, shape (n,).
+
+    Returns:
+        Number, shape (n,).
+    """
+    return np.pi * distance_squared * np.sqrt(determinant) * density
+
+
 def second_plot(
     detection_probability: float,
     area: FloatArray,

@@ -130,9 +130,10 @@ class Tracker:
         unclaimed = np.ones(ripe, bool)
         untracked = np.ones(ripe, bool)
         if len(gated.track):
-            gain = self._gain(gated, plots)
+            density = self._clutter.per_area(plots.range[gated.plot])
+            gain = self._gain(gated, density)
             confirmed = self._tracks.is_confirmed(gated.track)
-            edges = self._choose(gated, gain, confirmed, ripe)
+            edges = self._choose(gated, gain, density, confirmed, ripe)
             plot = gated.plot[edges]
             now = plot < ripe
             unclaimed[plot[now]] = False
@@ -145,20 +146,27 @@ class Tracker:
         if unclaimed.any():
             self._open(plots[:ripe][unclaimed], out)
 
-    def _gain(self, gated: Gated, plots: Plots) -> FloatArray:
+    def _gain(self, gated: Gated, density: FloatArray) -> FloatArray:
         return score.hit(
             self.parameters.detection_probability,
             gated.distance_squared,
             gated.determinant,
-            self._clutter.per_area(plots.range[gated.plot]),
+            density,
         )
 
     def _choose(
-        self, gated: Gated, gain: FloatArray, confirmed: npt.NDArray[np.bool_], ripe: int
+        self,
+        gated: Gated,
+        gain: FloatArray,
+        density: FloatArray,
+        confirmed: npt.NDArray[np.bool_],
+        ripe: int,
     ) -> npt.NDArray[np.intp]:
         weight = gain - score.miss(self.parameters.detection_probability)
         # In a gate so wide that a false plot is likelier than the target's, a miss is the better guess.
-        likely = np.flatnonzero(weight > 0.0)
+        # After misses a gate is kilometres wide; there a plot must be nearer than chance would bring a false one.
+        strangers = score.false_plots_nearer(gated.distance_squared, gated.determinant, density)
+        likely = np.flatnonzero((weight > 0.0) & (strangers < self.parameters.false_plots_nearer))
         edges = likely[
             ASSOCIATIONS[self.parameters.association](
                 GateGraph(
