@@ -20,16 +20,16 @@ _NO_PLOTS = np.zeros(0, PLOT)
 class PlotExtractor:
     """Turns sectors of sweeps into plots, one table for each sector; see docs/primary_proc.md."""
 
-    def __init__(self, parameters: ExtractorParameters, health: Health) -> None:
+    def __init__(self, parameters: ExtractorParameters, health: Health | None = None) -> None:
         """Start with no radar known; the first pulses tell its geometry.
 
         Args:
             parameters: what the user wants.
-            health: where counts and rates go.
+            health: where counts and rates go; None for a new one.
         """
         self._parameters = parameters
-        self._health = health
-        self._stream = SweepStream(health)
+        self._health = health if health is not None else Health()
+        self._stream = SweepStream(self._health)
         self._chain: ExtractionChain | None = None
         self._stamp, self._frame = 0, RADAR_FRAME
 
