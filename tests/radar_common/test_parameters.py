@@ -60,7 +60,7 @@ def test_a_whole_number_serves_as_a_float():
 def test_the_default_file_gives_the_defaults(tmp_path):
     path = tmp_path / "gate.yaml"
     path.write_text(to_yaml(GateParameters, "tracker"))
-    content = yaml.safe_load(path.read_text())["tracker"]["ros__parameters"]
+    content = yaml.safe_load(path.read_text())["/**/tracker"]["ros__parameters"]
     assert content == {d.name: d.default for d in describe(GateParameters)}
     assert from_file(GateParameters, path, "tracker") == GateParameters()
 

@@ -149,7 +149,7 @@ def from_file(cls: type[Parameters], path: str | Path, node: str) -> Any:
     if not isinstance(content, dict):
         raise ParameterError(f"parameter file {path}: no sections by node name")
     values: dict[str, Any] = {}
-    for section in ("/**", node, f"/{node}"):
+    for section in ("/**", f"/**/{node}", node, f"/{node}"):
         try:
             values |= (content.get(section) or {}).get("ros__parameters") or {}
         except (AttributeError, TypeError) as error:
@@ -161,7 +161,7 @@ def from_file(cls: type[Parameters], path: str | Path, node: str) -> Any:
 
 
 def to_yaml(cls: type[Parameters], node: str) -> str:
-    """Write the defaults as a ROS 2 parameter file, each with its description.
+    """Write the defaults as a ROS 2 parameter file, each with its description, for the node in any namespace.
 
     Args:
         cls: the set.
@@ -170,7 +170,7 @@ def to_yaml(cls: type[Parameters], node: str) -> str:
     Returns:
         Text of the file.
     """
-    lines = [f"{node}:", "  ros__parameters:"]
+    lines = [f"/**/{node}:", "  ros__parameters:"]
     for item in describe(cls):
         lines.append(f"    # {item.text}{_limits(item)}")
         lines.append(f"    {item.name}: {_scalar(item.default)}")
