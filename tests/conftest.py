@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-# Domains 102 and above collide with ephemeral ports; each worker of a parallel run takes one.
-_WORKER = os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")
-os.environ.setdefault("ROS_DOMAIN_ID", str(10 + int(_WORKER) % 40))
+# Every process of a parallel run takes a domain of its own, whatever it inherits; those from 60 on are the command's,
+# and 102 and above collide with ephemeral ports.
+os.environ["ROS_DOMAIN_ID"] = str(1 + os.getpid() % 50)
 
 if shutil.which("ros2") is None:
     # Without a sourced ROS 2 the command stands beside the interpreter of the environment.
