@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import sys
 from pathlib import Path
 
@@ -17,6 +18,9 @@ os.environ["ROS_DOMAIN_ID"] = str(1 + os.getpid() % 50)
 if shutil.which("ros2") is None:
     # Without a sourced ROS 2 the command stands beside the interpreter of the environment.
     os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+
+# A run started in the background ignores SIGINT, and would hand that on to every process it interrupts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 ROOT = Path(__file__).resolve().parents[1]
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import signal
 import subprocess
+import sys
 import threading
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
@@ -35,8 +37,11 @@ class RosProcess:
         Args:
             arguments: command line after `ros2`.
             log: file that takes the output.
+
+        Raises:
+            ChainError: there is no `ros2` command.
         """
-        self._command = ["ros2", *arguments]
+        self._command = [_ros2(), *arguments]
         self._log = log
         self._lines: list[str] = []
         self._ended = False
@@ -62,9 +67,10 @@ class RosProcess:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Interrupt the process and its children as Ctrl-C would, and kill what does not end."""
+        """Ask the process and its children to end, and kill what does not."""
         if self._process.poll() is None:
-            os.killpg(self._process.pid, signal.SIGINT)
+            # Not SIGINT, which a job started in the background inherits as ignored.
+            os.killpg(self._process.pid, signal.SIGTERM)
         try:
             self._process.wait(STOP_TIMEOUT)
         except subprocess.TimeoutExpired:
@@ -182,6 +188,15 @@ def record_live_chain(
             )
         )
         source.wait(timeout=RUN_TIMEOUT)
+
+
+def _ros2() -> str:
+    # In an environment that is not activated the command stands beside the interpreter.
+    places = os.pathsep.join([os.environ.get("PATH", ""), str(Path(sys.executable).parent)])
+    command = shutil.which("ros2", path=places)
+    if command is None:
+        raise ChainError("there is no ros2 command; source ROS 2 or install ros2_embedded")
+    return command
 
 
 def _ros_args(settings: Mapping[str, object]) -> list[str]:
