@@ -15,13 +15,22 @@ import pytest
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSProfile
 
 from radar_common.health import Health
 from radar_common.ros.messages import TableSubscription
 from radar_common.tables import PLOT, PLOTS_TOPIC, TRACK, TRACKS_TOPIC, TRUTH, TRUTH_TOPIC
 
 TIMEOUT = 60.0
-RELIABLE_SWEEPS = "qos_overrides./radar/sweeps.subscription.reliability"
+# Longer than any run here: a busy machine may be late, but must lose nothing.
+DEEP = 2000
+LOSSLESS = {
+    "plot_extractor": {
+        "qos_overrides./radar/sweeps.subscription.reliability": "reliable",
+        "qos_overrides./radar/sweeps.subscription.depth": DEEP,
+    },
+    "tracker": {"qos_overrides./radar/plots.subscription.depth": DEEP},
+}
 
 
 @pytest.fixture
@@ -65,7 +74,10 @@ class Listener:
         self.health = Health()
         self.tables = {PLOTS_TOPIC: [], TRACKS_TOPIC: [], TRUTH_TOPIC: []}
         for topic, dtype in ((PLOTS_TOPIC, PLOT), (TRACKS_TOPIC, TRACK), (TRUTH_TOPIC, TRUTH)):
-            TableSubscription(node, topic, self.tables[topic].append, self.health, expected=dtype)
+            keep = self.tables[topic].append
+            TableSubscription(
+                node, topic, keep, self.health, expected=dtype, profile=QoSProfile(depth=DEEP)
+            )
 
     def rows(self, topic):
         tables = self.tables[topic]
@@ -118,6 +130,15 @@ def ros2():
 
 
 @pytest.fixture(scope="session")
-def reliable_sweeps():
-    """ROS arguments that make an extractor lose no sweep."""
-    return ["-p", f"{RELIABLE_SWEEPS}:=reliable"]
+def lossless():
+    """Parameters with which a node loses nothing, by the node's name."""
+    return LOSSLESS
+
+
+@pytest.fixture(scope="session")
+def lossless_arguments():
+    """The same as ROS arguments."""
+    return {
+        node: [part for k, v in settings.items() for part in ("-p", f"{k}:={v}")]
+        for node, settings in LOSSLESS.items()
+    }

@@ -25,14 +25,14 @@ TINY_BEAMWIDTH_DEG = 10.0
 
 
 @pytest.fixture
-def live(context, executor, listener, spin_until):
+def live(context, executor, listener, spin_until, lossless):
     """Run the chain for some scans and return what was heard."""
     finished = []
     extractor = PlotExtractorNode(
         context=context,
         parameter_overrides=[
-            Parameter("qos_overrides./radar/sweeps.subscription.reliability", value="reliable"),
             Parameter("beamwidth_deg", value=TINY_BEAMWIDTH_DEG),
+            *(Parameter(k, value=v) for k, v in lossless["plot_extractor"].items()),
         ],
     )
     settings = {
@@ -43,7 +43,8 @@ def live(context, executor, listener, spin_until):
         "wait_for_truth_subscribers": 1,
     }
     executor.add_node(extractor)
-    executor.add_node(TrackerNode(context=context))
+    tracker = [Parameter(k, value=v) for k, v in lossless["tracker"].items()]
+    executor.add_node(TrackerNode(context=context, parameter_overrides=tracker))
     spin_until(listener.ready, "plots and tracks to be offered")
     executor.add_node(
         RadarSimulatorNode(

@@ -65,11 +65,13 @@ def quietly(messages, total):
 
 
 def test_a_played_bag_gives_the_tracks_of_the_offline_run(
-    recording, listener, ros2, reliable_sweeps, spin_until, tmp_path
+    recording, listener, ros2, lossless_arguments, spin_until, tmp_path
 ):
+    extractor = ["run", "primary_proc", "plot_extractor", *EXTRACTOR]
+    extractor += lossless_arguments["plot_extractor"]
     with (
-        ros2("run", "secondary_proc", "tracker"),
-        ros2("run", "primary_proc", "plot_extractor", *EXTRACTOR, *reliable_sweeps),
+        ros2("run", "secondary_proc", "tracker", "--ros-args", *lossless_arguments["tracker"]),
+        ros2(*extractor),
     ):
         spin_until(listener.ready, "extractor and tracker")
         # The delay is the player's own: it lets subscriptions be discovered, as `ros2 bag play` offers it.
