@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from scipy.ndimage import uniform_filter1d
 
-from primary_proc.automaton import Program
-from primary_proc.cell_averaging import CellAveraging
+from primary_proc.automata.automaton import Program
+from primary_proc.detectors.program_detector import ProgramDetector
+from primary_proc.normalisers.cell_averaging import CellAveraging
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.plot_extractor import PlotExtractor
-from primary_proc.program_detector import ProgramDetector
-from primary_proc.quantiser import BinaryQuantiser
+from primary_proc.quantisers.binary_quantiser import BinaryQuantiser
 from radar_common.health import Health
 from radar_common.tables import NANOSECONDS, Table, sweep_dtype
 

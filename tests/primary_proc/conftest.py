@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from primary_proc.burst_shape import burst_shape, pulses_in_burst
+from primary_proc.calculators.burst_shape import burst_shape, pulses_in_burst
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.plot_extractor import PlotExtractor
 from radar_common.health import Health

@@ -8,7 +8,7 @@ import itertools
 import numpy as np
 import pytest
 
-from primary_proc.automaton import Automaton, Output, Program, program_automaton
+from primary_proc.automata.automaton import Automaton, Output, Program, program_automaton
 
 # Kuzmin 1967, Table 3.10, states as printed there.
 TABLE_3_10 = Automaton(

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from primary_proc.automaton import Output, Program, program_automaton
-from primary_proc.burst_detector import bursts
-from primary_proc.program_detector import ProgramDetector
-from primary_proc.table_detector import TableDetector
+from primary_proc.automata.automaton import Output, Program, program_automaton
+from primary_proc.detectors.burst_detector import bursts
+from primary_proc.detectors.program_detector import ProgramDetector
+from primary_proc.detectors.table_detector import TableDetector
 
 NO_LIMIT = 10**6
 PARALLEL = ["3/4-2", "3/3-2", "4/4-2", "4/4-3", "3/4-3", "4/5-2", "1/1-1"]

@@ -7,21 +7,25 @@ import numpy as np
 import pytest
 from scipy.stats import binom, chi2, ncx2
 
-from primary_proc import cascade_chain
-from primary_proc.automaton import Program, program_automaton
-from primary_proc.automaton_chain import noise_state, start_end_distribution, step_chain
-from primary_proc.azimuth_accuracy import azimuth_error, nominal_bias
-from primary_proc.burst_shape import burst_shape, pulses_in_burst
-from primary_proc.detection_probability import detection_probability
-from primary_proc.false_alarms import (
+from primary_proc.automata import cascade_chain
+from primary_proc.automata.automaton import Program, program_automaton
+from primary_proc.automata.automaton_chain import noise_state, start_end_distribution, step_chain
+from primary_proc.calculators.azimuth_accuracy import azimuth_error, nominal_bias
+from primary_proc.calculators.burst_shape import burst_shape, pulses_in_burst
+from primary_proc.calculators.detection_probability import detection_probability
+from primary_proc.calculators.false_alarms import (
     false_plots_per_scan,
     false_start_probability,
     mean_noise_length,
     noise_probability,
     noise_probability_for_rate,
 )
-from primary_proc.program_detector import ProgramDetector
-from primary_proc.single_pulse import fluctuating_probability, steady_probability, threshold_for
+from primary_proc.calculators.single_pulse import (
+    fluctuating_probability,
+    steady_probability,
+    threshold_for,
+)
+from primary_proc.detectors.program_detector import ProgramDetector
 
 THREE_OF_FOUR = Program(3, 4, 2)
 AMPLITUDES = np.array([1.0, 1.5, 2.0, 2.5, 3.0, 4.0])

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import binom
 
-from primary_proc.cell_averaging import CellAveraging
 from primary_proc.choices import NORMALISERS
+from primary_proc.normalisers.cell_averaging import CellAveraging
 from primary_proc.parameters import ExtractorParameters
-from primary_proc.quantiser import BinaryQuantiser, unpack_cells
+from primary_proc.quantisers.binary_quantiser import BinaryQuantiser, unpack_cells
 
 CONFIDENCE = 0.999
 

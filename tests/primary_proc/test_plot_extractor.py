@@ -11,14 +11,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.stats import binom, poisson
 
-from primary_proc.automaton import Program
-from primary_proc.burst_shape import burst_shape, pulses_in_burst
+from primary_proc.automata.automaton import Program
+from primary_proc.calculators.burst_shape import burst_shape, pulses_in_burst
+from primary_proc.calculators.detection_probability import detection_probability
+from primary_proc.calculators.false_alarms import false_start_probability
+from primary_proc.calculators.single_pulse import steady_probability, threshold_for
 from primary_proc.design import design
-from primary_proc.detection_probability import detection_probability
-from primary_proc.false_alarms import false_start_probability
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.plot_extractor import PlotExtractor
-from primary_proc.single_pulse import steady_probability, threshold_for
 from radar_common.frames import wrap_pi
 from radar_common.health import Health
 from radar_common.tables import PLOT, Table

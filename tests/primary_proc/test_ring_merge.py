@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from primary_proc.burst_detector import bursts
-from primary_proc.ring_merge import RingMerger
+from primary_proc.detectors.burst_detector import bursts
+from primary_proc.plots.ring_merge import RingMerger
 
 LONGEST = 50
 

@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from primary_proc.accuracy_table import AccuracyTable
-from primary_proc.automaton import Program
-from primary_proc.azimuth_estimator import AzimuthEstimator, StartEnd
-from primary_proc.cell_averaging import CellAveraging
-from primary_proc.detection_method import DetectionMethod, ProgramMethod
-from primary_proc.fixed_level import FixedLevel
-from primary_proc.normalisation import Normaliser
+from primary_proc.automata.automaton import Program
+from primary_proc.calculators.accuracy_table import AccuracyTable
+from primary_proc.estimators.azimuth_estimator import AzimuthEstimator, StartEnd
+from primary_proc.methods.detection_method import DetectionMethod, ProgramMethod
+from primary_proc.normalisers.cell_averaging import CellAveraging
+from primary_proc.normalisers.fixed_level import FixedLevel
+from primary_proc.normalisers.normaliser import Normaliser
 
 if TYPE_CHECKING:
     from primary_proc.parameters import ExtractorParameters

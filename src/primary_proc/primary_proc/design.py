@@ -6,8 +6,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from primary_proc.accuracy_table import AccuracyTable
-from primary_proc.burst_shape import pulses_in_burst
+from primary_proc.calculators.accuracy_table import AccuracyTable
+from primary_proc.calculators.burst_shape import pulses_in_burst
 from primary_proc.choices import METHODS
 from primary_proc.parameters import ExtractorParameters
 from radar_common.frames import TWO_PI

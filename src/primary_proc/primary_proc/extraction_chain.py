@@ -9,16 +9,16 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.burst_detector import joined
 from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS
 from primary_proc.design import design
+from primary_proc.detectors.burst_detector import joined
 from primary_proc.parameters import ExtractorParameters
-from primary_proc.plot_formation import Grid, form_plots
-from primary_proc.power_meter import PowerMeter
-from primary_proc.pulse_log import PulseLog
+from primary_proc.plots.plot_formation import Grid, form_plots
+from primary_proc.plots.power_meter import PowerMeter
+from primary_proc.plots.ring_merge import Groups, RingMerger
 from primary_proc.rate_watch import RateWatch
-from primary_proc.ring_merge import Groups, RingMerger
-from primary_proc.sweep_stream import Pulses
+from primary_proc.stream.pulse_log import PulseLog
+from primary_proc.stream.sweep_stream import Pulses
 from radar_common.health import Health
 from radar_common.tables import PLOT
 

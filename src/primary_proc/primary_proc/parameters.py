@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from primary_proc.accuracy_table import TARGETS
+from primary_proc.calculators.accuracy_table import TARGETS
 from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS
 from radar_common.antenna_pattern import PATTERNS
 from radar_common.parameters import ParameterError, Parameters, parameter

@@ -6,10 +6,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.burst_detector import joined
+from primary_proc.detectors.burst_detector import joined
 from primary_proc.extraction_chain import ExtractionChain
 from primary_proc.parameters import ExtractorParameters
-from primary_proc.sweep_stream import Pulses, SweepStream
+from primary_proc.stream.sweep_stream import Pulses, SweepStream
 from radar_common.cloud import TableError
 from radar_common.health import Health
 from radar_common.tables import NANOSECONDS, PLOT, RADAR_FRAME, Table

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from primary_proc.automaton import Program
-from primary_proc.azimuth_accuracy import AzimuthError, azimuth_error, nominal_bias
-from primary_proc.burst_shape import burst_shape
-from primary_proc.false_alarms import noise_probability
-from primary_proc.single_pulse import steady_probability, threshold_for
+from primary_proc.automata.automaton import Program
+from primary_proc.calculators.azimuth_accuracy import AzimuthError, azimuth_error, nominal_bias
+from primary_proc.calculators.burst_shape import burst_shape
+from primary_proc.calculators.false_alarms import noise_probability
+from primary_proc.calculators.single_pulse import steady_probability, threshold_for
 from radar_eval.published.result import Row
 
 _PROGRAM = Program(3, 4, 2)

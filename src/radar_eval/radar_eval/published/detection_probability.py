@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from primary_proc.automaton import Program
-from primary_proc.burst_shape import burst_shape
-from primary_proc.detection_probability import detection_probability
-from primary_proc.false_alarms import noise_probability
-from primary_proc.single_pulse import (
+from primary_proc.automata.automaton import Program
+from primary_proc.calculators.burst_shape import burst_shape
+from primary_proc.calculators.detection_probability import detection_probability
+from primary_proc.calculators.false_alarms import noise_probability
+from primary_proc.calculators.single_pulse import (
     fluctuating_probability,
     steady_probability,
     threshold_for,

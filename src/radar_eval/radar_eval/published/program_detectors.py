@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from primary_proc.automaton import Program
-from primary_proc.cascade_chain import detection_index, noise_states
-from primary_proc.false_alarms import false_start_probability, noise_probability
-from primary_proc.single_pulse import threshold_for
+from primary_proc.automata.automaton import Program
+from primary_proc.automata.cascade_chain import detection_index, noise_states
+from primary_proc.calculators.false_alarms import false_start_probability, noise_probability
+from primary_proc.calculators.single_pulse import threshold_for
 from radar_eval.published.result import Row, to_digits
 
 _NOISE = (0.05, 0.10, 0.15, 0.20, 0.30, 0.40, 0.50)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.automaton import Automaton, Output, Program, program_automaton
+from primary_proc.automata.automaton import Automaton, Output, Program, program_automaton
 
 FloatArray = npt.NDArray[np.float64]
 

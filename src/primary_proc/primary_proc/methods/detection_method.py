@@ -8,13 +8,13 @@ from abc import ABC, abstractmethod
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.accuracy_table import AccuracyTable, accuracy_table
-from primary_proc.automaton import Program
-from primary_proc.burst_detector import BurstDetector
-from primary_proc.false_alarms import noise_probability_for_rate
-from primary_proc.program_detector import ProgramDetector
-from primary_proc.quantiser import BinaryQuantiser
-from primary_proc.table_detector import TableDetector
+from primary_proc.automata.automaton import Program
+from primary_proc.calculators.accuracy_table import AccuracyTable, accuracy_table
+from primary_proc.calculators.false_alarms import noise_probability_for_rate
+from primary_proc.detectors.burst_detector import BurstDetector
+from primary_proc.detectors.program_detector import ProgramDetector
+from primary_proc.detectors.table_detector import TableDetector
+from primary_proc.quantisers.binary_quantiser import BinaryQuantiser
 
 
 class DetectionMethod(ABC):

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.normalisation import FloatArray, Normaliser, square_finite
+from primary_proc.normalisers.normaliser import FloatArray, Normaliser, square_finite
 
 Block = npt.NDArray[np.float32]
 

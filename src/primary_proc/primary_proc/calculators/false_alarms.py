@@ -7,9 +7,9 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import lambertw
 
-from primary_proc import cascade_chain
-from primary_proc.automaton import Program, program_automaton
-from primary_proc.automaton_chain import noise_state, start_probability
+from primary_proc.automata import cascade_chain
+from primary_proc.automata.automaton import Program, program_automaton
+from primary_proc.automata.automaton_chain import noise_state, start_probability
 
 _SMALLEST, _LARGEST = 1e-5, 0.3
 _DENSEST = 0.2

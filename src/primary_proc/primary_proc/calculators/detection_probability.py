@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc import cascade_chain
-from primary_proc.automaton import Program
-from primary_proc.automaton_chain import first_detection
+from primary_proc.automata import cascade_chain
+from primary_proc.automata.automaton import Program
+from primary_proc.automata.automaton_chain import first_detection
 
 
 def detection_probability(

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.azimuth_estimator import AzimuthEstimator
-from primary_proc.pulse_log import PulseLog
-from primary_proc.ring_merge import Groups
+from primary_proc.estimators.azimuth_estimator import AzimuthEstimator
+from primary_proc.plots.ring_merge import Groups
+from primary_proc.stream.pulse_log import PulseLog
 from radar_common.frames import enu_from_polar
 from radar_common.tables import PLOT
 

@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.automaton import Output, Program, program_automaton
-from primary_proc.burst_detector import BurstDetector, bursts, in_order
-from primary_proc.quantiser import unpack_cells
+from primary_proc.automata.automaton import Output, Program, program_automaton
+from primary_proc.detectors.burst_detector import BurstDetector, bursts, in_order
+from primary_proc.quantisers.binary_quantiser import unpack_cells
 
 
 class TableDetector(BurstDetector):

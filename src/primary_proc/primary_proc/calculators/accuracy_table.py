@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.automaton import Program
-from primary_proc.automaton_chain import StartEnd, first_detection, start_end_distribution
-from primary_proc.burst_shape import burst_shape
-from primary_proc.single_pulse import (
+from primary_proc.automata.automaton import Program
+from primary_proc.automata.automaton_chain import StartEnd, first_detection, start_end_distribution
+from primary_proc.calculators.burst_shape import burst_shape
+from primary_proc.calculators.single_pulse import (
     fluctuating_probability,
     steady_probability,
     threshold_for,

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from primary_proc.burst_detector import BURST, joined
+from primary_proc.detectors.burst_detector import BURST, joined
 
 _LONGEST_CHAIN = 2
 _NO_PARTS = np.zeros(0, np.int64)

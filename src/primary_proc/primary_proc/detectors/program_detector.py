@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.automaton import Program
-from primary_proc.burst_detector import BurstDetector, bursts, in_order
-from primary_proc.quantiser import unpack_cells
+from primary_proc.automata.automaton import Program
+from primary_proc.detectors.burst_detector import BurstDetector, bursts, in_order
+from primary_proc.quantisers.binary_quantiser import unpack_cells
 
 
 class _Open(NamedTuple):

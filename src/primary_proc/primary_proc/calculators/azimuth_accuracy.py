@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc import cascade_chain
-from primary_proc.automaton import Program
-from primary_proc.automaton_chain import StartEnd, start_end_distribution
+from primary_proc.automata import cascade_chain
+from primary_proc.automata.automaton import Program
+from primary_proc.automata.automaton_chain import StartEnd, start_end_distribution
 
 FloatArray = npt.NDArray[np.float64]
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.accuracy_table import AccuracyTable
+from primary_proc.calculators.accuracy_table import AccuracyTable
 
 FloatArray = npt.NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.sweep_check import require_sweeps, usable_rows
+from primary_proc.stream.sweep_check import require_sweeps, usable_rows
 from radar_common.frames import TWO_PI
 from radar_common.health import Health
 from radar_common.tables import NANOSECONDS, Table

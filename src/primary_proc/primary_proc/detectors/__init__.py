@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Burst detectors with streaming state."""
