@@ -92,12 +92,13 @@ def test_share_of_a_stage(benchmark, video, ratio, stage):
     quantiser = BinaryQuantiser(normaliser.threshold(0.01))
     detector = ProgramDetector(Program(3, 4, 2), CELLS, 100)
     blocks = np.split(video, PULSES // SECTOR)
+    azimuth = np.zeros(SECTOR)
     ratios = [np.empty((SECTOR, CELLS), np.float32) for _ in blocks]
     for block, out in zip(blocks, ratios, strict=True):
-        normaliser.ratios(block, out)
+        normaliser.ratios(block, azimuth, out)
     words = [quantiser.quantise(out) for out in ratios]
     work = {
-        "normalise": lambda: [normaliser.ratios(block, ratios[0]) for block in blocks],
+        "normalise": lambda: [normaliser.ratios(block, azimuth, ratios[0]) for block in blocks],
         "quantise": lambda: [quantiser.quantise(ratios[0]) for _ in blocks],
         "detect": lambda: [detector.detect(bits, n * SECTOR) for n, bits in enumerate(words)],
     }

@@ -19,7 +19,7 @@ CONFIDENCE = 0.999
 
 def ratios(normaliser, video):
     out = np.empty(video.shape, np.float32)
-    bad = normaliser.ratios(video, out)
+    bad = normaliser.ratios(video, np.zeros(len(video)), out)
     return out, bad
 
 

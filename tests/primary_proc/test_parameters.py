@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS
+from primary_proc.choices import ESTIMATORS, NORMALISERS
 from primary_proc.parameters import ExtractorParameters
 from radar_common.parameters import ParameterError, describe, from_file, to_yaml
 
@@ -18,7 +18,6 @@ def test_the_file_is_the_class(repository):
 
 def test_choices_are_what_is_registered():
     choices = {item.name: item.choices for item in describe(ExtractorParameters)}
-    assert choices["detector"] == tuple(METHODS)
     assert choices["normaliser"] == tuple(NORMALISERS)
     assert choices["azimuth_estimator"] == tuple(ESTIMATORS)
 

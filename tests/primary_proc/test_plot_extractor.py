@@ -150,7 +150,7 @@ def test_detection_probability_is_the_calculators(
     plan = design(settings, 512, STEP)
     pulses = pulses_in_burst("sinc2", np.radians(3.0), STEP)
     shape = burst_shape("sinc2", pulses, book=False)
-    noise = plan.noise_probability
+    noise = plan.method.noise_probability
     expected = detection_probability(
         Program.parse(detector), noise, steady_probability(threshold_for(noise), amplitude * shape)
     )
@@ -281,10 +281,10 @@ def test_the_rate_holds_for_each_detector(scene, extract, cut):
 
 def test_design_inverts_the_false_start_probability():
     plan = design(ExtractorParameters(false_plots_per_scan=10.0), 1024, 2 * np.pi / 4096)
-    start = false_start_probability(Program(3, 4, 2), plan.noise_probability)
+    start = false_start_probability(Program(3, 4, 2), plan.method.noise_probability)
     assert start * 1024 * 4096 == pytest.approx(10.0, rel=1e-3)
-    assert plan.pulses_per_scan == 4096.0
-    assert plan.pulses_in_burst == pytest.approx(19.13, abs=0.01)
+    assert plan.requirements.pulses_per_scan == 4096.0
+    assert plan.requirements.pulses == pytest.approx(19.13, abs=0.01)
 
 
 def _few_targets(scene):

@@ -7,9 +7,11 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from primary_proc.automata.automaton import Program
-from primary_proc.calculators.accuracy_table import AccuracyTable
-from primary_proc.estimators.azimuth_estimator import AzimuthEstimator, StartEnd
-from primary_proc.methods.detection_method import DetectionMethod, ProgramMethod
+from primary_proc.estimators.azimuth_estimator import AzimuthEstimator
+from primary_proc.estimators.start_end import StartEnd
+from primary_proc.methods.detection_method import DetectionMethod, SettledMethod
+from primary_proc.methods.program_method import ProgramMethod
+from primary_proc.methods.requirements import Requirements
 from primary_proc.normalisers.cell_averaging import CellAveraging
 from primary_proc.normalisers.fixed_level import FixedLevel
 from primary_proc.normalisers.normaliser import Normaliser
@@ -25,10 +27,31 @@ NORMALISERS: dict[str, Callable[[ExtractorParameters, int], Normaliser]] = {
 }
 """Normalisers, each made for a number of range cells."""
 
-METHODS: dict[str, DetectionMethod] = {
-    name: ProgramMethod(Program.parse(name)) for name in ("3/4-2", "3/3-2", "4/4-2", "4/4-3")
-}
-"""Burst detectors with their calculators."""
+METHODS: dict[str, DetectionMethod] = {}
+"""Burst detectors that have a name of their own; programs are named l/m-k, see `find_method`."""
 
-ESTIMATORS: dict[str, Callable[[AccuracyTable], AzimuthEstimator]] = {"start-end": StartEnd}
-"""Azimuth estimators, each made from the accuracy of the detector."""
+ESTIMATORS: dict[str, Callable[[SettledMethod, Requirements], AzimuthEstimator]] = {
+    "start-end": lambda method, requirements: StartEnd(method.accuracy),
+}
+"""Azimuth estimators, each made for a detector that is set up."""
+
+
+def find_method(name: str) -> DetectionMethod:
+    """Find a burst detector.
+
+    Args:
+        name: one of METHODS, or a program l/m-k such as "3/4-2".
+
+    Returns:
+        The way to detect.
+
+    Raises:
+        ValueError: the name is neither.
+    """
+    if name in METHODS:
+        return METHODS[name]
+    try:
+        return ProgramMethod(Program.parse(name))
+    except ValueError as error:
+        names = ", ".join(METHODS)
+        raise ValueError(f"detector {name!r} is none of {names}, and {error}") from error

@@ -6,9 +6,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from primary_proc.calculators.accuracy_table import AccuracyTable
 from primary_proc.calculators.burst_shape import pulses_in_burst
-from primary_proc.choices import METHODS
+from primary_proc.choices import find_method
+from primary_proc.methods.detection_method import SettledMethod
+from primary_proc.methods.requirements import Requirements
 from primary_proc.parameters import ExtractorParameters
 from radar_common.frames import TWO_PI
 
@@ -21,23 +22,15 @@ class Design:
 
     Attributes:
         step: azimuth between pulses that they were made for, rad.
-        pulses_per_scan: pulses in one turn.
-        pulses_in_burst: N_0.
-        noise_probability: p_N, probability of a one in noise.
-        false_plots_per_scan: what noise is predicted to make.
+        requirements: what is asked of the detector.
+        method: the detector set up for it.
         longest: limit of a burst, in pulses.
-        gap: pulses between bursts that still make one plot.
-        accuracy: azimuth accuracy against the burst's peak.
     """
 
     step: float
-    pulses_per_scan: float
-    pulses_in_burst: float
-    noise_probability: float
-    false_plots_per_scan: float
+    requirements: Requirements
+    method: SettledMethod
     longest: int
-    gap: int
-    accuracy: AccuracyTable
 
 
 def design(parameters: ExtractorParameters, rings: int, step: float) -> Design:
@@ -54,7 +47,7 @@ def design(parameters: ExtractorParameters, rings: int, step: float) -> Design:
     Raises:
         ValueError: the beam holds too few pulses for the detector, or the false-plot rate is out of reach.
     """
-    method = METHODS[parameters.detector]
+    method = find_method(parameters.detector)
     pulses_per_scan = TWO_PI / step
     if abs(pulses_per_scan - round(pulses_per_scan)) < _WHOLE:
         # Rounding in azimuths must not make two designs of one radar.
@@ -67,15 +60,18 @@ def design(parameters: ExtractorParameters, rings: int, step: float) -> Design:
             f"a beam of {parameters.beamwidth_deg:g} deg holds {pulses:.1f} pulses, "
             f"detector {parameters.detector} needs {method.fewest_pulses}"
         )
-    gap = round(parameters.merge_gap * pulses)
-    noise = method.noise_probability(parameters.false_plots_per_scan, rings, pulses_per_scan, gap)
+    requirements = Requirements(
+        false_plots=parameters.false_plots_per_scan,
+        rings=rings,
+        pulses_per_scan=pulses_per_scan,
+        gap=round(parameters.merge_gap * pulses),
+        pattern=parameters.pattern,
+        pulses=pulses,
+        target=parameters.fluctuation,
+    )
     return Design(
         step=step,
-        pulses_per_scan=pulses_per_scan,
-        pulses_in_burst=pulses,
-        noise_probability=noise,
-        false_plots_per_scan=parameters.false_plots_per_scan,
+        requirements=requirements,
+        method=method.settle(requirements),
         longest=math.ceil(parameters.longest_burst * pulses),
-        gap=gap,
-        accuracy=method.accuracy(noise, parameters.pattern, pulses, parameters.fluctuation),
     )

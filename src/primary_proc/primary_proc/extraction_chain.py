@@ -9,12 +9,13 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS
+from primary_proc.choices import ESTIMATORS, NORMALISERS
 from primary_proc.design import design
 from primary_proc.detectors.burst_detector import joined
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.plots.plot_formation import Grid, form_plots
 from primary_proc.plots.power_meter import PowerMeter
+from primary_proc.plots.ratio_history import RatioHistory
 from primary_proc.plots.ring_merge import Groups, RingMerger
 from primary_proc.rate_watch import RateWatch
 from primary_proc.stream.pulse_log import PulseLog
@@ -47,12 +48,12 @@ class ExtractionChain:
         self._layout = _layout(pulses)
         cells = pulses.video.shape[1]
         self._design = design(parameters, cells, pulses.azimuth_step)
-        self._method = METHODS[parameters.detector]
         self._normaliser = NORMALISERS[parameters.normaliser](parameters, cells)
-        self._detector = self._method.detector(cells, self._design.longest)
+        self._detector = self._design.method.detector(cells, self._design.longest)
         self._meter = PowerMeter(self._normaliser.noise_scale, self._detector.memory)
-        self._merger = RingMerger(self._design.longest, self._design.gap)
+        self._merger = RingMerger(self._design.longest, self._design.requirements.gap)
         self._log = PulseLog()
+        self._history = RatioHistory(self._normaliser)
         self._begin = 0
         self._tune()
 
@@ -103,7 +104,9 @@ class ExtractionChain:
     ) -> npt.NDArray[np.void]:
         first = self._log.append(azimuth, time, self._oldest())
         ratios = self._meter.room(len(video))
-        bad = self._normaliser.ratios(video, ratios)
+        bad = self._normaliser.ratios(video, azimuth, ratios)
+        if self._estimator.reach:
+            self._history.append(ratios, first, self._oldest() - self._estimator.reach)
         bits = self._quantiser.quantise(ratios)
         closed = self._whole(self._detector.detect(bits, first))
         going = self._detector.open_bursts()
@@ -129,12 +132,15 @@ class ExtractionChain:
         if not len(bursts):
             return _NO_PLOTS
         ratio = bursts["power"] / self._normaliser.noise_scale[bursts["ring"]]
-        stronger = self._normaliser.exceedance(ratio, bursts["ring"])
-        # Share of noise bursts whose peak is weaker: each of their ones exceeds this peak with the same probability.
-        chance = np.clip(stronger / self._design.noise_probability, 0.0, 1.0)
-        quality = (1.0 - chance) ** self._method.fewest_ones
+        quality = self._design.method.quality(self._normaliser.exceedance(ratio, bursts["ring"]))
         plots = form_plots(
-            groups, quality, self._estimator, self._log, self._grid, self._parameters.target_rings
+            groups,
+            quality,
+            self._estimator,
+            self._history,
+            self._log,
+            self._grid,
+            self._parameters.target_rings,
         )
         self._health.count("plots out", len(plots))
         return plots
@@ -143,12 +149,14 @@ class ExtractionChain:
         """Take over the design; bursts under way go on."""
         cells, range_start, range_step = self._layout
         plan = self._design
-        self._quantiser = self._method.quantiser(self._normaliser.threshold(plan.noise_probability))
-        self._estimator = ESTIMATORS[self._parameters.azimuth_estimator](plan.accuracy)
-        threshold = -math.log(plan.noise_probability)
+        self._quantiser = plan.method.quantiser(self._normaliser)
+        self._estimator = ESTIMATORS[self._parameters.azimuth_estimator](
+            plan.method, plan.requirements
+        )
+        threshold = -math.log(plan.method.noise_probability)
         self._grid = Grid(range_start, range_step, plan.step, threshold)
         self._detector.longest = self._merger.longest = plan.longest
-        self._merger.gap = plan.gap
+        self._merger.gap = plan.requirements.gap
         self._rates = RateWatch(plan, cells, self._health)
 
     def _oldest(self) -> int:

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from primary_proc.calculators.accuracy_table import TARGETS
-from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS
+from primary_proc.calculators.target_models import TARGETS
+from primary_proc.choices import ESTIMATORS, NORMALISERS, find_method
 from radar_common.antenna_pattern import PATTERNS
 from radar_common.parameters import ParameterError, Parameters, parameter
 
@@ -23,8 +23,7 @@ class ExtractorParameters(Parameters):
     )
     detector: str = parameter(
         "3/4-2",
-        "burst detector: ones / positions that start a burst - zeros that end it",
-        choices=tuple(METHODS),
+        "burst detector: a program l/m-k, which is ones / positions that start a burst - zeros that end it",
     )
     normaliser: str = parameter(
         "cell-averaging", "how the noise level is found", choices=tuple(NORMALISERS)
@@ -63,8 +62,8 @@ class ExtractorParameters(Parameters):
     )
     fluctuation: str = parameter(
         "steady",
-        "echoes within one burst, for the stated azimuth errors: steady (also where they change from turn to turn) "
-        "or fast, independent from pulse to pulse",
+        "what targets do, for the stated azimuth errors and the predicted detection: steady, slow from turn to turn or "
+        "fast from pulse to pulse, each also with one dominant scatterer (Swerling 0, 1, 2, 3, 4)",
         choices=tuple(TARGETS),
     )
     longest_burst: float = parameter(
@@ -100,6 +99,10 @@ class ExtractorParameters(Parameters):
         Raises:
             ParameterError: the combination cannot work; the text says why.
         """
+        try:
+            find_method(self.detector)
+        except ValueError as error:
+            raise ParameterError(str(error)) from error
         if self.normaliser == "fixed-level" and self.noise_level == 0.0:
             raise ParameterError("normaliser fixed-level needs a noise_level over 0")
         if self.normaliser == "cell-averaging" and self.guard_cells > 2 * self.reference_cells:

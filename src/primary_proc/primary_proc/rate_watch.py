@@ -38,14 +38,14 @@ class RateWatch:
         self._pulses += pulses
         self._ones += ones
         self._plots += plots
-        scans = self._pulses / self._design.pulses_per_scan
+        scans = self._pulses / self._design.requirements.pulses_per_scan
         self._health.watch(
             "share of cells over the threshold (expected: noise alone)",
-            self._design.noise_probability,
+            self._design.method.noise_probability,
             self._ones / (self._pulses * self._cells),
         )
         self._health.watch(
             "plots per scan (expected: noise alone)",
-            self._design.false_plots_per_scan,
+            self._design.method.false_plots,
             self._plots / scans,
         )

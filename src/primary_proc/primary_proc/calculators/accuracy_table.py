@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,24 +11,10 @@ import numpy.typing as npt
 from primary_proc.automata.automaton import Program
 from primary_proc.automata.automaton_chain import StartEnd, first_detection, start_end_distribution
 from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.single_pulse import (
-    fluctuating_probability,
-    steady_probability,
-    threshold_for,
-)
+from primary_proc.calculators.single_pulse import threshold_for
+from primary_proc.calculators.target_models import TARGETS, TargetModel
 
 FloatArray = npt.NDArray[np.float64]
-
-TargetModel = Callable[[npt.ArrayLike, npt.ArrayLike], FloatArray]
-
-TARGETS: dict[str, TargetModel] = {
-    "steady": steady_probability,
-    # Kuzmin's k is the rms envelope ratio: the mean power over the noise's is k^2, where that of a is a^2 / 2.
-    "fast": lambda threshold, amplitude: fluctuating_probability(
-        threshold, np.asarray(amplitude) / np.sqrt(2.0)
-    ),
-}
-"""What targets do from pulse to pulse of a burst: probability that the envelope exceeds a threshold."""
 
 _AMPLITUDES = np.geomspace(1.0, 32.0, 26)
 _OFFSETS = np.array([-0.375, -0.125, 0.125, 0.375])
@@ -77,7 +62,8 @@ def accuracy_table(
         noise: probability p_N of a one in noise.
         pattern: antenna pattern's name.
         pulses: N_0.
-        target: name in `TARGETS`.
+        target: name in `TARGETS`. What is common to a burst's pulses shows in its peak, so that slow models have the
+            table of steady targets.
 
     Returns:
         The table.
@@ -85,7 +71,7 @@ def accuracy_table(
     threshold = float(threshold_for(noise))
     shape = burst_shape(pattern, pulses, _OFFSETS, book=False)
     amplitude = _AMPLITUDES[:, None, None] * shape
-    signal = TARGETS[target](threshold, amplitude)
+    signal = TARGETS[target].single_pulse(threshold, amplitude)
     joint = start_end_distribution(program, noise, signal)
     position = (shape.shape[-1] + 1) / 2.0 + _OFFSETS[:, None, None]
     weight = _of_plots(program, joint, position, first_detection(program, noise, signal))
@@ -119,6 +105,6 @@ def _median_peak(target: TargetModel, amplitude: FloatArray) -> FloatArray:
     high = 5.0 * amplitude.max(axis=1) + 10.0
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2.0
-        below = (1.0 - target(middle[:, None], amplitude)).prod(axis=1) < 0.5
+        below = (1.0 - target.single_pulse(middle[:, None], amplitude)).prod(axis=1) < 0.5
         low, high = np.where(below, middle, low), np.where(below, high, middle)
     return (low + high) / 2.0

@@ -9,6 +9,13 @@ import numpy.typing as npt
 from primary_proc.automata import cascade_chain
 from primary_proc.automata.automaton import Program
 from primary_proc.automata.automaton_chain import first_detection
+from primary_proc.calculators.burst_shape import burst_shape
+from primary_proc.calculators.single_pulse import threshold_for
+from primary_proc.calculators.target_models import TARGETS
+
+FloatArray = npt.NDArray[np.float64]
+
+_OFFSETS = np.array([-0.375, -0.125, 0.125, 0.375])
 
 
 def detection_probability(
@@ -41,3 +48,28 @@ def detection_probability(
     for position, now in enumerate(detection, start=lag):
         detected[position] = detected[position - 1] + now * (1.0 - detected[position - lag])
     return float(min(detected[-1], 1.0))
+
+
+def detection_in_the_beam(
+    program: Program, noise: float, pattern: str, pulses: float, snr_db: npt.ArrayLike, target: str
+) -> FloatArray:
+    """Probability that a target in a rotating beam is detected, mean over its place between two pulses.
+
+    Args:
+        program: l/m-k.
+        noise: probability p_N of a one in noise.
+        pattern: antenna pattern's name.
+        pulses: N_0.
+        snr_db: power over the mean noise power at the beam's axis, any shape.
+        target: name in `TARGETS`.
+
+    Returns:
+        Probability, same shape.
+    """
+    model = TARGETS[target]
+    shape = burst_shape(pattern, pulses, _OFFSETS, book=False)
+    peak = np.sqrt(2.0) * 10.0 ** (np.asarray(snr_db, dtype=float) / 20.0)
+    amplitude = peak[..., None, None, None] * model.factor[:, None, None] * shape
+    signal = model.single_pulse(threshold_for(noise), amplitude)
+    found = first_detection(program, noise, signal)
+    return np.asarray(found.mean(axis=-1) @ model.weight)

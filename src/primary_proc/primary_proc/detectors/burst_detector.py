@@ -15,6 +15,10 @@ BURST = np.dtype(
         ("end", np.int64),  # mu: pulse at which it was found to have ended
         ("overflow", np.bool_),  # ended by the limit of its length
         ("power", np.float32),  # peak over the mean noise power; filled in by the peak meter
+        (
+            "centre",
+            np.float64,
+        ),  # pulse over which the detector's sum was largest, with a fraction; NaN without a sum
     ]
 )
 
@@ -55,7 +59,11 @@ class BurstDetector(ABC):
 
 
 def bursts(
-    ring: npt.ArrayLike, start: npt.ArrayLike, end: npt.ArrayLike, overflow: npt.ArrayLike
+    ring: npt.ArrayLike,
+    start: npt.ArrayLike,
+    end: npt.ArrayLike,
+    overflow: npt.ArrayLike,
+    centre: npt.ArrayLike = np.nan,
 ) -> npt.NDArray[np.void]:
     """Make a table of bursts.
 
@@ -64,12 +72,14 @@ def bursts(
         start: pulse of detection, shape (n,).
         end: pulse of the end, shape (n,) or one for all.
         overflow: whether ended by the limit, shape (n,) or one for all.
+        centre: pulse of the largest sum, shape (n,) or one for all.
 
     Returns:
         Table of dtype BURST, powers zero.
     """
     table = np.zeros(np.shape(ring), BURST)
     table["ring"], table["start"], table["end"], table["overflow"] = ring, start, end, overflow
+    table["centre"] = centre
     return table
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.accuracy_table import AccuracyTable
+from primary_proc.estimators.envelopes import Envelopes
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -28,44 +28,22 @@ class Centres:
 
 
 class AzimuthEstimator(ABC):
-    """Estimates the position of the target under each burst."""
+    """Estimates the position of the target under each burst.
+
+    Attributes:
+        reach: pulses to either side of a burst's start and end that it looks at again; 0 for none.
+    """
+
+    reach: int = 0
 
     @abstractmethod
-    def estimate(self, bursts: npt.NDArray[np.void]) -> Centres:
+    def estimate(self, bursts: npt.NDArray[np.void], envelopes: Envelopes) -> Centres:
         """Estimate positions.
 
         Args:
             bursts: dtype BURST, powers filled in, shape (n,).
+            envelopes: the stored signal.
 
         Returns:
             Positions and their standard deviations.
         """
-
-
-class StartEnd(AzimuthEstimator):
-    """Middle between start and end, less the bias of the detector at the burst's strength.
-
-    Source: Kuzmin 1967, (3.36), (3.92); the bias is that of the exact chain, not the nominal one.
-    """
-
-    def __init__(self, accuracy: AccuracyTable) -> None:
-        """Take what the design knows of the detector.
-
-        Args:
-            accuracy: bias and standard deviation against peak power.
-        """
-        self._accuracy = accuracy
-
-    def estimate(self, bursts: npt.NDArray[np.void]) -> Centres:
-        """Estimate positions; see `AzimuthEstimator.estimate`.
-
-        Args:
-            bursts: dtype BURST, shape (n,).
-
-        Returns:
-            Positions; a burst cut off by the limit of its length may have its target anywhere in it.
-        """
-        bias, std = self._accuracy.look_up(bursts["power"])
-        length = bursts["end"] - bursts["start"]
-        middle = (bursts["start"] + bursts["end"]) / 2.0
-        return Centres(middle - bias, np.where(bursts["overflow"], length / np.sqrt(12.0), std))

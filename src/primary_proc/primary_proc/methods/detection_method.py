@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A way to detect bursts: its quantiser, its detector and the calculators that set it up, under one name."""
+"""A way to detect bursts, and the same way set up for one radar."""
 
 from __future__ import annotations
 
@@ -8,65 +8,63 @@ from abc import ABC, abstractmethod
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.automata.automaton import Program
-from primary_proc.calculators.accuracy_table import AccuracyTable, accuracy_table
-from primary_proc.calculators.false_alarms import noise_probability_for_rate
+from primary_proc.calculators.accuracy_table import AccuracyTable
 from primary_proc.detectors.burst_detector import BurstDetector
-from primary_proc.detectors.program_detector import ProgramDetector
-from primary_proc.detectors.table_detector import TableDetector
-from primary_proc.quantisers.binary_quantiser import BinaryQuantiser
+from primary_proc.methods.requirements import Requirements
+from primary_proc.normalisers.normaliser import Normaliser
+from primary_proc.quantisers.quantiser import Quantiser
+
+FloatArray = npt.NDArray[np.float64]
 
 
-class DetectionMethod(ABC):
-    """What the pipeline asks of a way to detect bursts.
+class SettledMethod(ABC):
+    """Thresholds, the parts that use them, and what they will do. Built once for a radar; holds no stream's state.
 
     Attributes:
-        fewest_pulses: pulses that a burst needs to be detected at all.
-        fewest_ones: ones that a detection rests on.
+        noise_probability: probability that noise makes a one; where there are no ones, of the level that the quantiser
+            counts for the diagnostics.
+        false_starts: probability per azimuth position and ring that noise starts a burst, P_fa.
+        false_plots: false plots that this makes in one turn, less those that merge.
     """
 
-    fewest_pulses: int
-    fewest_ones: int
+    noise_probability: float
+    false_starts: float
+    false_plots: float
+
+    @property
+    @abstractmethod
+    def accuracy(self) -> AccuracyTable:
+        """Bias and spread of the middle between start and end, against the burst's peak; computed when first asked."""
 
     @abstractmethod
-    def noise_probability(
-        self, false_plots: float, rings: int, pulses_per_scan: float, gap: int
-    ) -> float:
-        """Probability of a one in noise for a number of false plots per scan.
+    def detection_probability(self, snr_db: npt.ArrayLike, target: str) -> FloatArray:
+        """Probability that a target is detected, mean over its place between two pulses.
 
         Args:
-            false_plots: wanted false plots of the whole coverage in one turn.
-            rings: range rings.
-            pulses_per_scan: azimuth positions in one turn.
-            gap: pulses between bursts that still make one plot.
+            snr_db: power over the mean noise power at the beam's axis, any shape.
+            target: name in `target_models.TARGETS`.
 
         Returns:
-            p_N.
-
-        Raises:
-            ValueError: the rate is out of reach.
+            Probability, same shape.
         """
 
     @abstractmethod
-    def accuracy(self, noise: float, pattern: str, pulses: float, target: str) -> AccuracyTable:
-        """Azimuth accuracy against the burst's peak.
+    def quality(self, chance: FloatArray) -> FloatArray:
+        """Share of noise bursts whose peak is weaker: uniform for false plots, near one for targets.
 
         Args:
-            noise: p_N.
-            pattern: antenna pattern's name.
-            pulses: N_0.
-            target: what targets do from pulse to pulse, a name in `accuracy_table.TARGETS`.
+            chance: probability that a cell of noise exceeds the burst's peak, shape (n,).
 
         Returns:
-            The table.
+            Shape (n,).
         """
 
     @abstractmethod
-    def quantiser(self, threshold: npt.NDArray[np.float64]) -> BinaryQuantiser:
-        """Make the quantiser that feeds the detector.
+    def quantiser(self, normaliser: Normaliser) -> Quantiser:
+        """Make what turns ratios into the detector's samples.
 
         Args:
-            threshold: on the ratio of each cell, shape (cells,).
+            normaliser: that the ratios come from.
 
         Returns:
             The quantiser.
@@ -85,70 +83,25 @@ class DetectionMethod(ABC):
         """
 
 
-class ProgramMethod(DetectionMethod):
-    """Binary quantisation and a program detector l/m-k."""
+class DetectionMethod(ABC):
+    """A way to detect bursts, before the radar is known.
 
-    def __init__(self, program: Program) -> None:
-        """Take the program.
+    Attributes:
+        fewest_pulses: pulses that a burst needs to be detected at all.
+    """
 
-        Args:
-            program: l/m-k.
-        """
-        self.program = program
-        self.fewest_pulses = self.fewest_ones = program.ones
+    fewest_pulses: int
 
-    def noise_probability(
-        self, false_plots: float, rings: int, pulses_per_scan: float, gap: int
-    ) -> float:
-        """Probability of a one in noise; see `DetectionMethod.noise_probability`.
+    @abstractmethod
+    def settle(self, requirements: Requirements) -> SettledMethod:
+        """Set up for a radar.
 
         Args:
-            false_plots: wanted false plots per scan.
-            rings: range rings.
-            pulses_per_scan: azimuth positions in one turn.
-            gap: pulses between bursts that still make one plot.
+            requirements: what is asked.
 
         Returns:
-            p_N.
+            The method with its thresholds.
+
+        Raises:
+            ValueError: the requirements are out of reach; the text says why.
         """
-        return noise_probability_for_rate(self.program, false_plots, rings, pulses_per_scan, gap)
-
-    def accuracy(self, noise: float, pattern: str, pulses: float, target: str) -> AccuracyTable:
-        """Azimuth accuracy; see `DetectionMethod.accuracy`.
-
-        Args:
-            noise: p_N.
-            pattern: antenna pattern's name.
-            pulses: N_0.
-            target: what targets do from pulse to pulse, a name in `accuracy_table.TARGETS`.
-
-        Returns:
-            The table.
-        """
-        return accuracy_table(self.program, noise, pattern, pulses, target)
-
-    def quantiser(self, threshold: npt.NDArray[np.float64]) -> BinaryQuantiser:
-        """Make the quantiser.
-
-        Args:
-            threshold: shape (cells,).
-
-        Returns:
-            The quantiser.
-        """
-        return BinaryQuantiser(threshold)
-
-    def detector(self, rings: int, longest: int) -> BurstDetector:
-        """Make a detector, bit-parallel where the program has such a form.
-
-        Args:
-            rings: range rings.
-            longest: limit of a burst's length, in pulses.
-
-        Returns:
-            The detector.
-        """
-        program = self.program
-        parallel = program.ones + program.zeros > program.window
-        kind = ProgramDetector if parallel else TableDetector
-        return kind(program, rings, longest)

@@ -6,11 +6,13 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from primary_proc.calculators.cfar_loss import averaging_loss_db
 from primary_proc.normalisers.normaliser import FloatArray, Normaliser, square_finite
 
 Block = npt.NDArray[np.float32]
 
 _BLOCK_BYTES = 144 * 1024
+_LARGEST_RATIO = 1e9
 
 
 class CellAveraging(Normaliser):
@@ -48,11 +50,12 @@ class CellAveraging(Normaliser):
         self._sums, self._additions = self._plan()
         self.noise_scale = self._count.astype(float)
 
-    def ratios(self, video: npt.NDArray, out: npt.NDArray[np.float32]) -> int:
+    def ratios(self, video: npt.NDArray, azimuth: FloatArray, out: npt.NDArray[np.float32]) -> int:
         """Normalise some pulses; see `Normaliser.ratios`.
 
         Args:
             video: shape (pulses, cells).
+            azimuth: not used.
             out: float32, shape (pulses, cells).
 
         Returns:
@@ -94,6 +97,30 @@ class CellAveraging(Normaliser):
             Shape (n,).
         """
         return np.exp(-self._count[cell] * np.log1p(ratio))
+
+    def noise_power(self, ratios: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
+        """N ln(1 + t); see `Normaliser.noise_power`.
+
+        Args:
+            ratios: shape (pulses, cells).
+
+        Returns:
+            Same shape.
+        """
+        power = np.log1p(np.nan_to_num(ratios, posinf=_LARGEST_RATIO))
+        power *= self._count.astype(np.float32)
+        return power
+
+    def loss_db(self, probability: float) -> float:
+        """Loss of the full window; see `Normaliser.loss_db`.
+
+        Args:
+            probability: p_N.
+
+        Returns:
+            dB.
+        """
+        return averaging_loss_db(probability, float(self._count.max()))
 
     def _plan(self) -> tuple[Block, list[tuple[Block, Block, Block]]]:
         """Lay out the additions that lead to the sums over both halves of the window.

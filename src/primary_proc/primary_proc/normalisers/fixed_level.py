@@ -22,11 +22,12 @@ class FixedLevel(Normaliser):
         self._factor = np.float32(1.0 / level**2)
         self.noise_scale = np.ones(cells)
 
-    def ratios(self, video: npt.NDArray, out: npt.NDArray[np.float32]) -> int:
+    def ratios(self, video: npt.NDArray, azimuth: FloatArray, out: npt.NDArray[np.float32]) -> int:
         """Normalise some pulses; see `Normaliser.ratios`.
 
         Args:
             video: shape (pulses, cells).
+            azimuth: not used.
             out: float32, shape (pulses, cells).
 
         Returns:
@@ -59,3 +60,25 @@ class FixedLevel(Normaliser):
             Shape (n,).
         """
         return np.exp(-np.asarray(ratio, dtype=float))
+
+    def noise_power(self, ratios: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
+        """The ratios themselves; see `Normaliser.noise_power`.
+
+        Args:
+            ratios: shape (pulses, cells).
+
+        Returns:
+            Same shape.
+        """
+        return np.nan_to_num(ratios)
+
+    def loss_db(self, probability: float) -> float:
+        """Nothing is lost; see `Normaliser.loss_db`.
+
+        Args:
+            probability: p_N.
+
+        Returns:
+            Zero.
+        """
+        return 0.0

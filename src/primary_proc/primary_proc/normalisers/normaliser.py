@@ -25,11 +25,12 @@ class Normaliser(ABC):
     noise_scale: FloatArray
 
     @abstractmethod
-    def ratios(self, video: npt.NDArray, out: npt.NDArray[np.float32]) -> int:
+    def ratios(self, video: npt.NDArray, azimuth: FloatArray, out: npt.NDArray[np.float32]) -> int:
         """Normalise some pulses.
 
         Args:
             video: linear envelope, shape (pulses, cells), of any real type.
+            azimuth: of each pulse, rad in [0, 2 pi), shape (pulses,).
             out: where the ratios go, float32, shape (pulses, cells); infinite or NaN where the noise level is zero.
 
         Returns:
@@ -57,6 +58,30 @@ class Normaliser(ABC):
 
         Returns:
             Probability, shape (n,).
+        """
+
+    @abstractmethod
+    def noise_power(self, ratios: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
+        """Power over its mean that a known noise exceeds as rarely as this one's noise exceeds the ratio.
+
+        It is -ln of `exceedance`: exponential with mean one in noise, whatever the normaliser and wherever the cell.
+
+        Args:
+            ratios: shape (pulses, cells).
+
+        Returns:
+            Power, same shape; zero where the ratio is NaN.
+        """
+
+    @abstractmethod
+    def loss_db(self, probability: float) -> float:
+        """Signal-to-noise ratio lost against a noise level that is known.
+
+        Args:
+            probability: p_N of the threshold.
+
+        Returns:
+            dB at a detection probability of one half of a single pulse of a steady target, for a cell in the middle.
         """
 
 

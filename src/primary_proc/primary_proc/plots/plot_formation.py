@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from primary_proc.estimators.azimuth_estimator import AzimuthEstimator
+from primary_proc.estimators.envelopes import Envelopes
 from primary_proc.plots.ring_merge import Groups
 from primary_proc.stream.pulse_log import PulseLog
 from radar_common.frames import enu_from_polar
@@ -41,6 +42,7 @@ def form_plots(
     groups: Groups,
     quality: FloatArray,
     estimator: AzimuthEstimator,
+    envelopes: Envelopes,
     log: PulseLog,
     grid: Grid,
     target_rings: int,
@@ -55,6 +57,7 @@ def form_plots(
         groups: bursts, powers filled in, with the plot of each; at least one.
         quality: of each burst, shape (bursts,).
         estimator: of the azimuth.
+        envelopes: the stored signal, for estimators that look again.
         log: azimuth and time of pulses.
         grid: of the cells.
         target_rings: most rings that a target fills.
@@ -65,7 +68,7 @@ def form_plots(
     bursts, first = groups.bursts, groups.first
     plots = np.zeros(len(groups), PLOT)
     plot = np.repeat(np.arange(len(groups)), np.diff(first, append=len(bursts)))
-    centres = estimator.estimate(bursts)
+    centres = estimator.estimate(bursts, envelopes)
 
     weight = 1.0 / centres.std**2
     total = np.add.reduceat(weight, first)

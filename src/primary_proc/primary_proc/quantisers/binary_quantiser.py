@@ -6,15 +6,13 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from primary_proc.quantisers.quantiser import Quantiser
+
 _WORD = 64
 
 
-class BinaryQuantiser:
-    """Compares ratios with a threshold and packs the result.
-
-    Attributes:
-        ones: ones among the cells quantised last.
-    """
+class BinaryQuantiser(Quantiser):
+    """Compares ratios with a threshold and packs the result."""
 
     def __init__(self, threshold: npt.ArrayLike) -> None:
         """Set the threshold.
