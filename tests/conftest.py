@@ -10,6 +10,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# How long an example takes is the machine's business; benchmarks measure time, tests do not.
+settings.register_profile("project", deadline=None)
+settings.load_profile("project")
 
 # Every process of a parallel run takes a domain of its own, whatever it inherits; those from 60 on are the command's,
 # and 102 and above collide with ephemeral ports.

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from primary_proc.automata.automaton import Program
 from primary_proc.estimators.azimuth_estimator import AzimuthEstimator
 from primary_proc.estimators.start_end import StartEnd
+from primary_proc.methods.designed_method import DesignedMethod
 from primary_proc.methods.detection_method import DetectionMethod, SettledMethod
 from primary_proc.methods.program_method import ProgramMethod
 from primary_proc.methods.requirements import Requirements
@@ -27,7 +28,7 @@ NORMALISERS: dict[str, Callable[[ExtractorParameters, int], Normaliser]] = {
 }
 """Normalisers, each made for a number of range cells."""
 
-METHODS: dict[str, DetectionMethod] = {}
+METHODS: dict[str, DetectionMethod] = {"auto": DesignedMethod()}
 """Burst detectors that have a name of their own; programs are named l/m-k, see `find_method`."""
 
 ESTIMATORS: dict[str, Callable[[SettledMethod, Requirements], AzimuthEstimator]] = {

@@ -33,6 +33,35 @@ class Design:
     longest: int
 
 
+def requirements_for(parameters: ExtractorParameters, rings: int, step: float) -> Requirements:
+    """Say what a user and a radar ask of the detector.
+
+    Args:
+        parameters: what the user wants.
+        rings: range cells of a pulse.
+        step: azimuth between pulses, rad.
+
+    Returns:
+        The requirements.
+    """
+    pulses_per_scan = TWO_PI / step
+    if abs(pulses_per_scan - round(pulses_per_scan)) < _WHOLE:
+        # Rounding in azimuths must not make two designs of one radar.
+        pulses_per_scan = float(round(pulses_per_scan))
+    pulses = pulses_in_burst(
+        parameters.pattern, math.radians(parameters.beamwidth_deg), TWO_PI / pulses_per_scan
+    )
+    return Requirements(
+        false_plots=parameters.false_plots_per_scan,
+        rings=rings,
+        pulses_per_scan=pulses_per_scan,
+        gap=round(parameters.merge_gap * pulses),
+        pattern=parameters.pattern,
+        pulses=pulses,
+        target=parameters.fluctuation,
+    )
+
+
 def design(parameters: ExtractorParameters, rings: int, step: float) -> Design:
     """Set up the extractor.
 
@@ -48,30 +77,15 @@ def design(parameters: ExtractorParameters, rings: int, step: float) -> Design:
         ValueError: the beam holds too few pulses for the detector, or the false-plot rate is out of reach.
     """
     method = find_method(parameters.detector)
-    pulses_per_scan = TWO_PI / step
-    if abs(pulses_per_scan - round(pulses_per_scan)) < _WHOLE:
-        # Rounding in azimuths must not make two designs of one radar.
-        pulses_per_scan = float(round(pulses_per_scan))
-    pulses = pulses_in_burst(
-        parameters.pattern, math.radians(parameters.beamwidth_deg), TWO_PI / pulses_per_scan
-    )
-    if pulses < method.fewest_pulses:
+    requirements = requirements_for(parameters, rings, step)
+    if requirements.pulses < method.fewest_pulses:
         raise ValueError(
-            f"a beam of {parameters.beamwidth_deg:g} deg holds {pulses:.1f} pulses, "
+            f"a beam of {parameters.beamwidth_deg:g} deg holds {requirements.pulses:.1f} pulses, "
             f"detector {parameters.detector} needs {method.fewest_pulses}"
         )
-    requirements = Requirements(
-        false_plots=parameters.false_plots_per_scan,
-        rings=rings,
-        pulses_per_scan=pulses_per_scan,
-        gap=round(parameters.merge_gap * pulses),
-        pattern=parameters.pattern,
-        pulses=pulses,
-        target=parameters.fluctuation,
-    )
     return Design(
         step=step,
         requirements=requirements,
         method=method.settle(requirements),
-        longest=math.ceil(parameters.longest_burst * pulses),
+        longest=math.ceil(parameters.longest_burst * requirements.pulses),
     )

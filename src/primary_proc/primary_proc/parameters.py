@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from primary_proc.calculators.target_models import TARGETS
-from primary_proc.choices import ESTIMATORS, NORMALISERS, find_method
+from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS, find_method
 from radar_common.antenna_pattern import PATTERNS
 from radar_common.parameters import ParameterError, Parameters, parameter
 
@@ -23,7 +23,8 @@ class ExtractorParameters(Parameters):
     )
     detector: str = parameter(
         "3/4-2",
-        "burst detector: a program l/m-k, which is ones / positions that start a burst - zeros that end it",
+        "burst detector: a program l/m-k, which is ones / positions that start a burst - zeros that end it, "
+        f"or one of {', '.join(METHODS)}; auto takes the program that needs the least signal",
     )
     normaliser: str = parameter(
         "cell-averaging", "how the noise level is found", choices=tuple(NORMALISERS)

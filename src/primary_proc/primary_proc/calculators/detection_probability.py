@@ -66,10 +66,13 @@ def detection_in_the_beam(
     Returns:
         Probability, same shape.
     """
-    model = TARGETS[target]
     shape = burst_shape(pattern, pulses, _OFFSETS, book=False)
-    peak = np.sqrt(2.0) * 10.0 ** (np.asarray(snr_db, dtype=float) / 20.0)
-    amplitude = peak[..., None, None, None] * model.factor[:, None, None] * shape
-    signal = model.single_pulse(threshold_for(noise), amplitude)
-    found = first_detection(program, noise, signal)
-    return np.asarray(found.mean(axis=-1) @ model.weight)
+    threshold = threshold_for(noise)
+    model = TARGETS[target]
+
+    def detected(ratio_db: FloatArray) -> FloatArray:
+        peak = np.sqrt(2.0) * 10.0 ** (ratio_db / 20.0)
+        signal = model.single_pulse(threshold, peak[:, None, None] * shape)
+        return first_detection(program, noise, signal).mean(axis=-1)
+
+    return model.average(detected, snr_db)

@@ -121,7 +121,8 @@ def noise_probability_for_rate(
                 f"{false_plots:g} false plots per scan on {rings * pulses_per_scan:g} cells lie so close that they "
                 f"merge; at most {_DENSEST / room * rings * pulses_per_scan:.3g} can be had"
             )
-        noise = noise_probability(program, float(-lambertw(-share * room).real / room))
+        apart = float(-lambertw(-share * room).real / room) if room else share
+        noise = noise_probability(program, apart)
     return noise
 
 

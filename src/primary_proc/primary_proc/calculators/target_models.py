@@ -15,6 +15,7 @@ from primary_proc.calculators.single_pulse import fluctuating_probability, stead
 FloatArray = npt.NDArray[np.float64]
 
 _NODES = 48
+_WEAKEST_DB, _STRONGEST_DB, _GRID_DB = -15.0, 35.0, 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,26 @@ class TargetModel:
     single_pulse: Callable[[npt.ArrayLike, npt.ArrayLike], FloatArray]
     factor: FloatArray
     weight: FloatArray
+
+    def average(
+        self, curve: Callable[[FloatArray], FloatArray], snr_db: npt.ArrayLike
+    ) -> FloatArray:
+        """Mean of a detection probability over what bursts have in common.
+
+        Args:
+            curve: probability for bursts of known strength against their ratio in dB, shape (n,) to (n,).
+            snr_db: mean power over the mean noise power at the beam's axis, any shape.
+
+        Returns:
+            Probability, same shape.
+        """
+        ratio = np.asarray(snr_db, dtype=float)
+        if len(self.factor) == 1:
+            return np.asarray(curve(ratio.reshape(-1)).reshape(ratio.shape))
+        # The curve is smooth: a grid of it serves all strengths, where each would cost a walk through the chain.
+        grid = np.arange(_WEAKEST_DB, _STRONGEST_DB, _GRID_DB)
+        strength = ratio[..., None] + 20.0 * np.log10(self.factor)
+        return np.asarray(np.interp(strength, grid, curve(grid)) @ self.weight)
 
 
 def _fast(threshold: npt.ArrayLike, amplitude: npt.ArrayLike) -> FloatArray:

@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Colours and type that all figures share, and how a figure gets into a page."""
+"""Colours of plots and tracks, and how a figure gets into a page."""
 
 from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 import numpy.typing as npt
 from matplotlib.figure import Figure
 
-INK, MUTED, FAINT, GRID = "#1f2933", "#66727f", "#b6bfc9", "#e4e8ec"
+from radar_common.figure_style import FAINT, GRID, INK, MUTED, style
+
+__all__ = ["FAINT", "GRID", "INK", "MUTED", "style"]
+
 PLOT_COLOUR, TRACK_COLOUR, BAD_COLOUR = "#8a97a6", "#1769aa", "#c2410c"
 
 NIGHT, NIGHT_LINE, NIGHT_TEXT = "#0a1119", "#24384a", "#8fa6ba"
@@ -25,42 +25,6 @@ TRACK_COLOURS = (
     "#ffb454", "#59c2ff", "#c2d94c", "#ff8f9c", "#95e6cb", "#d2a6ff",
     "#ffd173", "#73b8ff", "#a6cc70", "#f29e74", "#5ccfe6", "#e6b3d3",
 )  # fmt: skip
-
-_TYPE: Any = {
-    "font.family": "sans-serif",
-    "font.sans-serif": ["DejaVu Sans"],
-    "font.size": 9.0,
-    "text.color": INK,
-    "axes.edgecolor": FAINT,
-    "axes.labelcolor": MUTED,
-    "axes.linewidth": 0.8,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "axes.titlesize": 9.5,
-    "axes.titlelocation": "left",
-    "axes.titlecolor": INK,
-    "grid.color": GRID,
-    "grid.linewidth": 0.7,
-    "xtick.color": MUTED,
-    "ytick.color": MUTED,
-    "xtick.major.size": 0.0,
-    "ytick.major.size": 0.0,
-    "legend.frameon": False,
-    "legend.fontsize": 8.5,
-    "lines.linewidth": 1.4,
-    # Without these two the same picture would be another file each time.
-    "svg.hashsalt": "radar_eval",
-    "svg.fonttype": "path",
-}
-
-
-@contextmanager
-def style() -> Iterator[None]:
-    """Draw in the style of the report within the context."""
-    with mpl.rc_context(_TYPE):
-        yield
 
 
 def as_png(figure: Figure, *, dpi: int = 170) -> bytes:
