@@ -64,7 +64,7 @@ def test_max_published_the_gaussian_quantiser_of_four_levels():
     assert quantiser.distortion == pytest.approx(0.1175, abs=5e-5)
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(levels=st.integers(1, 12), signal=st.floats(0.0, 6.0))
 def test_shooting_ends_at_the_conditions_of_the_least_error(levels, signal):
     law = envelope_law(signal)
