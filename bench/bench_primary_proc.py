@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import uniform_filter1d
 
-from primary_proc.automata.automaton import Program
+from primary_proc.automata.program import Program
 from primary_proc.detectors.program_detector import ProgramDetector
 from primary_proc.normalisers.cell_averaging import CellAveraging
 from primary_proc.parameters import ExtractorParameters

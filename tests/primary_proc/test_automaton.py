@@ -8,7 +8,8 @@ import itertools
 import numpy as np
 import pytest
 
-from primary_proc.automata.automaton import Automaton, Output, Program, program_automaton
+from primary_proc.automata.automaton import Automaton, Output
+from primary_proc.automata.program import Program
 
 # Kuzmin 1967, Table 3.10, states as printed there.
 TABLE_3_10 = Automaton(
@@ -45,13 +46,13 @@ def search(program, word):
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_automaton_is_the_pattern_search_on_all_words_of_12_bits(name):
     program = Program.parse(name)
-    automaton = program_automaton(program)
+    automaton = program.automaton
     for word in itertools.product((0, 1), repeat=12):
         assert outputs(automaton, word) == search(program, word), word
 
 
 def test_three_of_four_is_the_printed_table():
-    ours = program_automaton(Program(3, 4, 2))
+    ours = Program(3, 4, 2).automaton
     assert len(ours) == len(TABLE_3_10) == 9
     pairs, reached = [(0, 0)], {(0, 0)}
     for mine, printed in pairs:
@@ -66,7 +67,7 @@ def test_three_of_four_is_the_printed_table():
 
 @pytest.mark.parametrize(("name", "states"), [("3/3-2", 6), ("3/3-3", 7), ("3/4-2", 9)])
 def test_number_of_states_is_the_books(name, states):
-    assert len(program_automaton(Program.parse(name))) == states
+    assert len(Program.parse(name).automaton) == states
 
 
 @pytest.mark.parametrize("name", ["4/3-2", "0/3-2", "3/4-0", "3-4/2", "three of four", ""])

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from primary_proc.automata.automaton import Output, Program, program_automaton
+from primary_proc.automata.automaton import Output
+from primary_proc.automata.program import Program
 from primary_proc.detectors.burst_detector import bursts
 from primary_proc.detectors.program_detector import ProgramDetector
 from primary_proc.detectors.table_detector import TableDetector
@@ -44,7 +45,7 @@ def test_all_words_of_12_bits_at_once(kind):
     """One ring a word: starts and ends are those of the automaton's outputs."""
     program = Program(3, 4, 2)
     words = np.array(list(itertools.product((0, 1), repeat=12)), bool)
-    automaton = program_automaton(program)
+    automaton = program.automaton
     state = np.zeros(len(words), np.uint8)
     said = np.zeros((13, len(words)), np.uint8)
     for position, bits in enumerate(words.T, start=1):

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from scipy.stats import binom, chi2, ncx2
 
-from primary_proc.automata import cascade_chain
-from primary_proc.automata.automaton import Program, program_automaton
 from primary_proc.automata.automaton_chain import noise_state, start_end_distribution, step_chain
-from primary_proc.calculators.azimuth_accuracy import azimuth_error, nominal_bias
+from primary_proc.automata.book_chain import book_chain
+from primary_proc.automata.program import Program
+from primary_proc.calculators.azimuth_accuracy import azimuth_error
 from primary_proc.calculators.burst_shape import burst_shape, pulses_in_burst
 from primary_proc.calculators.detection_probability import detection_probability
 from primary_proc.calculators.false_alarms import (
@@ -138,11 +138,11 @@ def test_single_pulse_probabilities():
 
 
 def test_row_30_states_of_three_of_four():
-    states = cascade_chain.noise_states(THREE_OF_FOUR, 0.1)
+    states = book_chain(THREE_OF_FOUR).noise_states(0.1)
     first, short, detection = (
         states[0],
         states[2],
-        states[cascade_chain.detection_index(THREE_OF_FOUR)],
+        states[book_chain(THREE_OF_FOUR).detection],
     )
     assert first == pytest.approx(0.810211, abs=5e-7)
     assert short == pytest.approx(0.0801307, abs=5e-8)  # P_3, the state "10"
@@ -150,7 +150,7 @@ def test_row_30_states_of_three_of_four():
 
 
 def test_row_28_states_of_three_of_three():
-    states = cascade_chain.noise_states(Program(3, 3, 2), 0.1)
+    states = book_chain(Program(3, 3, 2)).noise_states(0.1)
     assert states[[0, 3]] == pytest.approx([0.899091, 8.9909e-4], rel=2e-5)
 
 
@@ -197,15 +197,15 @@ def test_false_start_probability(name, noise, book, exact):
 @pytest.mark.parametrize("noise", [0.02, 0.1, 0.3])
 def test_closed_forms_are_the_limit_of_the_books_chain(name, noise):
     program = Program.parse(name)
-    states = cascade_chain.noise_states(program, noise)
+    states = book_chain(program).noise_states(noise)
     assert states.sum() == pytest.approx(1.0)
-    stepped = cascade_chain.step_cascade(program, states, noise, (1 - noise) ** program.zeros)
+    stepped = book_chain(program).step(states, noise, (1 - noise) ** program.zeros)
     assert stepped == pytest.approx(states, abs=1e-14)
 
 
 @pytest.mark.parametrize("name", ["3/4-2", "4/4-3", "3/5-2"])
 def test_exact_noise_state_is_stationary(name):
-    automaton = program_automaton(Program.parse(name))
+    automaton = Program.parse(name).automaton
     state = noise_state(automaton, 0.2)
     assert state.sum() == pytest.approx(1.0)
     assert step_chain(automaton, state, 0.2) == pytest.approx(state, abs=1e-14)
@@ -326,7 +326,7 @@ def test_bias_of_three_of_four_is_that_of_three_ones():
     p_noise = noise_probability(THREE_OF_FOUR, 4e-3)
     bias = azimuth_error(THREE_OF_FOUR, p_noise, burst(p_noise, np.array([2.0, 3.0, 4.0]))).bias
     assert ((bias > 2.0) & (bias < 2.25)).all()
-    assert nominal_bias(THREE_OF_FOUR) == 2.0
+    assert THREE_OF_FOUR.nominal_bias == 2.0
 
 
 def test_more_pulses_spread_the_estimate_in_steps():
@@ -339,7 +339,7 @@ def test_more_pulses_spread_the_estimate_in_steps():
 
 def test_distribution_of_start_and_end_holds_all_bursts():
     p_noise = noise_probability(Program(4, 4, 3), 4e-3)
-    joint = start_end_distribution(Program(4, 4, 3), p_noise, burst(p_noise, 3.0))
+    joint = start_end_distribution(Program(4, 4, 3).automaton, p_noise, burst(p_noise, 3.0))
     assert (joint.probability >= 0.0).all()
     assert joint.probability[np.subtract.outer(joint.start, joint.end) > -3].sum() == 0.0
 
@@ -365,7 +365,7 @@ def test_rates_out_of_reach_are_refused():
     with pytest.raises(ValueError, match="model"):
         azimuth_error(THREE_OF_FOUR, 0.1, [0.5], model="other")
     with pytest.raises(ValueError, match="closed form"):
-        cascade_chain.noise_states(Program(3, 5, 2), 0.1)
+        book_chain(Program.parse("3/5-3"))
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.stats import binom, poisson
 
-from primary_proc.automata.automaton import Program
+from primary_proc.automata.program import Program
 from primary_proc.calculators.burst_shape import burst_shape, pulses_in_burst
 from primary_proc.calculators.detection_probability import detection_probability
 from primary_proc.calculators.false_alarms import false_start_probability

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from primary_proc.automata.automaton import Program
+from primary_proc.automata.program import Program
 from primary_proc.estimators.azimuth_estimator import AzimuthEstimator
 from primary_proc.estimators.start_end import StartEnd
 from primary_proc.methods.designed_method import DesignedMethod

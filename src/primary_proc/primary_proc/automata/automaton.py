@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Moore automata of the program detectors "l/m-k": detect on l ones in m positions, end on k zeros in a row.
+"""Moore automata on bits: the transition table that every binary detector of bursts comes down to.
 
-Source: Kuzmin 1967, § 3.2.4, Tables 3.9-3.10.
+Source: Kuzmin 1967, § 3.2.2, (3.38)-(3.41).
 """
 
 from __future__ import annotations
 
-import re
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Self
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
+
+MOST_STATES = 4096
+"""An automaton of more states is refused: its Markov chain would take minutes to solve."""
 
 
 class Output(IntEnum):
@@ -23,108 +26,122 @@ class Output(IntEnum):
     END = 2
 
 
-@dataclass(frozen=True, slots=True)
-class Program:
-    """A detection program, printed as "3/4-2".
-
-    Attributes:
-        ones: l, ones that make a burst.
-        window: m, adjacent positions in which they must lie.
-        zeros: k, zeros in a row that end the burst.
-    """
-
-    ones: int
-    window: int
-    zeros: int
-
-    def __post_init__(self) -> None:
-        """Refuse what no automaton can do.
-
-        Raises:
-            ValueError: not 1 <= l <= m, or k < 1.
-        """
-        if not 1 <= self.ones <= self.window or self.zeros < 1:
-            raise ValueError(f"no program {self}: needs 1 <= l <= m and k >= 1")
-
-    def __str__(self) -> str:
-        """Name as the literature writes it."""
-        return f"{self.ones}/{self.window}-{self.zeros}"
-
-    @classmethod
-    def parse(cls, name: str) -> Self:
-        """Read the name of a program.
-
-        Args:
-            name: such as "3/4-2".
-
-        Returns:
-            The program.
-
-        Raises:
-            ValueError: the name is no program's.
-        """
-        match = re.fullmatch(r"(\d+)/(\d+)-(\d+)", name)
-        if match is None:
-            raise ValueError(f"{name!r} is no program l/m-k")
-        return cls(*(int(number) for number in match.groups()))
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Automaton:
     """A finite automaton with outputs on its states; state 0 is the initial one.
 
+    It says BURST from the position where a burst is declared, and END once after it.
+
     Attributes:
         following: next state on a zero and on a one, shape (states, 2).
-        output: `Output` of each state, shape (states,).
+        output: `Output` of each state, in rising order, shape (states,).
     """
 
-    following: npt.NDArray[np.uint8]
-    output: npt.NDArray[np.uint8]
+    following: npt.NDArray[np.integer]
+    output: npt.NDArray[np.integer]
+
+    def __post_init__(self) -> None:
+        """Refuse what is no detector.
+
+        Raises:
+            ValueError: the table is not one, or bursts and ends do not take turns.
+        """
+        states = len(self.output)
+        if self.following.shape != (states, 2) or not np.isin(self.following, range(states)).all():
+            raise ValueError("the table does not give a state for each state and bit")
+        if self.output[0] != Output.NOTHING or (np.diff(self.output.astype(int)) < 0).any():
+            raise ValueError("states must stand in the order of their outputs, the initial first")
+        burst = (self.output == Output.BURST)[:, None]
+        says = self.output[self.following]
+        if (burst & (says == Output.NOTHING)).any() or (~burst & (says == Output.END)).any():
+            raise ValueError("an end must follow each burst, and nothing else")
 
     def __len__(self) -> int:
         """Count the states."""
         return len(self.output)
 
     @property
-    def start_state(self) -> int:
-        """State entered when a burst is detected, and whenever it goes on with a one."""
-        return int(np.flatnonzero(self.output == Output.BURST)[0])
+    def memory_cells(self) -> int:
+        """Binary cells that hold the number of a state."""
+        return (len(self) - 1).bit_length()
+
+    @cached_property
+    def declaring(self) -> npt.NDArray[np.bool_]:
+        """Whether a state declares a burst on a zero and on a one, shape (states, 2)."""
+        says = self.output[self.following]
+        return (self.output != Output.BURST)[:, None] & (says == Output.BURST)
+
+    @cached_property
+    def soonest(self) -> int:
+        """Fewest positions from the initial state to a declared burst."""
+        return self._cheapest((1, 1))
+
+    @cached_property
+    def fewest_ones(self) -> int:
+        """Fewest ones that make a burst."""
+        return self._cheapest((0, 1))
+
+    def _cheapest(self, price: tuple[int, int]) -> int:
+        """Least sum of the prices of bits on a way to a burst, each state priced anew until nothing changes."""
+        cost = np.full(len(self), np.inf)
+        cost[0] = 0.0
+        while True:
+            better = cost.copy()
+            for bit in (0, 1):
+                np.minimum.at(better, self.following[:, bit], cost + price[bit])
+            if (better == cost).all():
+                return int(cost[self.output == Output.BURST].min())
+            cost = better
 
 
-def program_automaton(program: Program) -> Automaton:
-    """Build the automaton of a program.
-
-    Before detection a state is the shortest string of past bits, beginning with a one, that can still grow into l ones
-    within m positions; after it, the number of zeros in a row. The end state goes on as the initial one does.
+def explore(
+    initial: Hashable,
+    step: Callable[[Hashable, int], Hashable],
+    says: Callable[[Hashable], Output],
+) -> Automaton:
+    """Make the table of an automaton that is given by what it does.
 
     Args:
-        program: l/m-k.
+        initial: its first state, anything hashable.
+        step: next state from a state and a bit.
+        says: output of a state.
 
     Returns:
-        The automaton: states without output first, then those of the burst, the end state last.
+        The automaton of all states that can be reached; not minimised.
+
+    Raises:
+        ValueError: it has more than `MOST_STATES` states.
     """
-    prefixes = [""]
-    successors: list[tuple[str | None, str | None]] = []
-    for prefix in prefixes:
-        pair = (_grow(prefix, "0", program), _grow(prefix, "1", program))
-        successors.append(pair)
-        prefixes.extend(new for new in pair if new is not None and new not in prefixes)
-    burst = len(prefixes)
-    number = {prefix: state for state, prefix in enumerate(prefixes)}
-    following = [[burst if new is None else number[new] for new in pair] for pair in successors]
-    following += [[burst + zeros + 1, burst] for zeros in range(program.zeros)]
-    following.append(following[0])
-    output = [Output.NOTHING] * burst + [Output.BURST] * program.zeros + [Output.END]
-    return Automaton(np.array(following, np.uint8), np.array(output, np.uint8))
+    number = {initial: 0}
+    reached = [initial]
+    following = []
+    for state in reached:
+        pair = step(state, 0), step(state, 1)
+        for new in pair:
+            if new not in number:
+                number[new] = len(reached)
+                reached.append(new)
+        if len(reached) > MOST_STATES:
+            raise ValueError(f"its automaton has more than {MOST_STATES} states")
+        following.append([number[new] for new in pair])
+    return in_order_of_output(
+        np.array(following), np.array([says(state) for state in reached], np.int8)
+    )
 
 
-def _grow(prefix: str, bit: str, program: Program) -> str | None:
-    """Prefix after one more bit, None once it holds a detection."""
-    grown = prefix + bit
-    if grown.count("1") >= program.ones:
-        return None
-    while grown and not (
-        grown[0] == "1" and grown.count("1") + program.window - len(grown) >= program.ones
-    ):
-        grown = grown[1:]
-    return grown
+def in_order_of_output(
+    following: npt.NDArray[np.integer], output: npt.NDArray[np.integer]
+) -> Automaton:
+    """Renumber states so that those of one output stand together.
+
+    Args:
+        following: next state on a zero and on a one, shape (states, 2).
+        output: of each state, shape (states,); the initial one says nothing.
+
+    Returns:
+        The same automaton.
+    """
+    order = np.argsort(output, kind="stable")
+    number = np.empty_like(order)
+    number[order] = np.arange(len(order))
+    return Automaton(number[following[order]], output[order])

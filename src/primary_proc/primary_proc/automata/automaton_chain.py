@@ -10,13 +10,16 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from scipy.sparse import csr_array, identity
+from scipy.sparse.linalg import spsolve
 
-from primary_proc.automata.automaton import Automaton, Output, Program, program_automaton
+from primary_proc.automata.automaton import Automaton, Output
 
 FloatArray = npt.NDArray[np.float64]
 
 _REMAINDER = 1e-9
 _LONGEST_TAIL = 2000
+_DENSE = 300
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +37,32 @@ class StartEnd:
     end: npt.NDArray[np.int64]
 
 
+class _Moves:
+    """Transitions of a table of states, by which a distribution over them goes on."""
+
+    def __init__(
+        self, following: npt.NDArray[np.integer], taken: npt.NDArray[np.bool_] | None = None
+    ) -> None:
+        """Take the transitions `following`, or those `taken` of them, both of shape (states, 2)."""
+        shape = (len(following), len(following))
+        self._by_bit = []
+        for bit in (0, 1):
+            state = np.arange(len(following)) if taken is None else np.flatnonzero(taken[:, bit])
+            place = following[state, bit], state
+            self._by_bit.append(csr_array((np.ones(len(state)), place), shape))
+
+    def step(self, state: FloatArray, one: npt.ArrayLike) -> FloatArray:
+        """Move (..., states) on with the probability of a one, shape (...)."""
+        wide = np.asarray(one, dtype=float)[..., None]
+        size = state.shape[-1]
+        zeros, ones = ((state * p).reshape(-1, size).T for p in (1.0 - wide, wide))
+        return np.asarray((self._by_bit[0] @ zeros + self._by_bit[1] @ ones).T).reshape(state.shape)
+
+    def matrix(self, one: float) -> csr_array:
+        """Probability of each transition, shape (to, from)."""
+        return csr_array(self._by_bit[0] * (1.0 - one) + self._by_bit[1] * one)
+
+
 def step_chain(automaton: Automaton, state: FloatArray, one: npt.ArrayLike) -> FloatArray:
     """Distribution over the states after one more position, P(n+1) = P(n) A (3.48).
 
@@ -45,30 +74,35 @@ def step_chain(automaton: Automaton, state: FloatArray, one: npt.ArrayLike) -> F
     Returns:
         Probability of each state, shape (..., states).
     """
-    one = np.asarray(one, dtype=float)[..., None]
-    on_zero, on_one = _transitions(automaton)
-    return (state * (1.0 - one)) @ on_zero + (state * one) @ on_one
+    return _Moves(automaton.following).step(state, one)
 
 
 def noise_state(automaton: Automaton, noise: float) -> FloatArray:
     """Limiting distribution in noise, P = P A (3.49)-(3.50).
 
     Args:
-        automaton: the automaton.
+        automaton: the automaton; noise must bring it back to its initial state.
         noise: probability p_N of a one.
 
     Returns:
         Probability of each state, shape (states,).
     """
-    on_zero, on_one = _transitions(automaton)
-    matrix = (1.0 - noise) * on_zero + noise * on_one
+    # Relative to the initial state: so the smallest probabilities keep their digits.
     size = len(automaton)
-    equations = np.vstack([matrix.T - np.eye(size), np.ones(size)])
-    return np.linalg.lstsq(equations, np.append(np.zeros(size), 1.0), rcond=None)[0]
+    if size <= _DENSE:
+        matrix = np.zeros((size, size))
+        for bit, probability in enumerate((1.0 - noise, noise)):
+            matrix[automaton.following[:, bit], np.arange(size)] += probability
+        others = np.linalg.solve(np.eye(size - 1) - matrix[1:, 1:], matrix[1:, 0])
+    else:
+        moves = _Moves(automaton.following).matrix(noise)
+        others = spsolve((identity(size - 1) - moves[1:, 1:]).tocsc(), moves[1:, [0]].toarray())
+    state = np.concatenate([[1.0], others])
+    return np.asarray(state / state.sum())
 
 
 def start_probability(automaton: Automaton, state: FloatArray, one: npt.ArrayLike) -> FloatArray:
-    """Probability that a burst is detected at the next position.
+    """Probability that a burst is declared at the next position.
 
     Args:
         automaton: the automaton.
@@ -78,76 +112,80 @@ def start_probability(automaton: Automaton, state: FloatArray, one: npt.ArrayLik
     Returns:
         Probability, shape (...).
     """
-    return (state[..., _detecting(automaton)]).sum(axis=-1) * np.asarray(one, dtype=float)
+    return _taken(automaton.declaring, state, one)
 
 
-def first_detection(program: Program, noise: float, signal: npt.ArrayLike) -> FloatArray:
-    """Probability that at least one burst is detected on the positions of a target.
+def first_detection(
+    automaton: Automaton, noise: float, signal: npt.ArrayLike, state: FloatArray | None = None
+) -> FloatArray:
+    """Probability that at least one burst is declared on the positions of a target.
 
     Args:
-        program: l/m-k.
+        automaton: the automaton.
         noise: probability of a one in noise, before the target.
         signal: probability of a one on each position of the target, shape (..., positions).
+        state: distribution over the states before the target, that in noise if not given, shape (states,).
 
     Returns:
         Probability, shape (...).
     """
-    automaton = program_automaton(program)
     signal = np.asarray(signal, dtype=float)
-    state = np.broadcast_to(noise_state(automaton, noise), (*signal.shape[:-1], len(automaton)))
-    detecting = _detecting(automaton)
+    # What is declared is absorbed; a burst that noise began goes on beside it.
+    going_on = _Moves(automaton.following, ~automaton.declaring)
+    first = noise_state(automaton, noise) if state is None else state
+    now = np.broadcast_to(first, (*signal.shape[:-1], len(automaton)))
     detected = np.zeros(signal.shape[:-1])
     for one in np.moveaxis(signal, -1, 0):
-        detected = detected + start_probability(automaton, state, one)
-        stepped = step_chain(automaton, state, one)
-        # What has just been detected is absorbed; a burst that noise began goes on beside it.
-        stepped[..., automaton.start_state] -= state[..., detecting].sum(axis=-1) * one
-        state = stepped
+        detected = detected + start_probability(automaton, now, one)
+        now = going_on.step(now, one)
     return detected
 
 
-def start_end_distribution(program: Program, noise: float, signal: npt.ArrayLike) -> StartEnd:
+def start_end_distribution(automaton: Automaton, noise: float, signal: npt.ArrayLike) -> StartEnd:
     """Joint distribution of start and end over all bursts that begin on the positions of a target.
 
     Noise ones after the target lengthen a burst; they are followed until nothing is left.
 
     Args:
-        program: l/m-k.
+        automaton: the automaton.
         noise: probability of a one in noise, before and after the target.
         signal: probability of a one on each position of the target, shape (..., positions).
 
     Returns:
         The distribution; its sum is the mean number of bursts a target gives.
     """
-    automaton = program_automaton(program)
     signal = np.asarray(signal, dtype=float)
-    positions = signal.shape[-1]
-    state = np.broadcast_to(noise_state(automaton, noise), (*signal.shape[:-1], len(automaton)))
-    zeros = np.zeros((*signal.shape[:-1], positions, program.zeros))
+    leading, positions = signal.shape[:-1], signal.shape[-1]
+    begins, stops = np.searchsorted(automaton.output, [Output.BURST, Output.END])
+    inside = slice(begins, stops)
+    declared = _Moves(automaton.following, automaton.declaring)
+    moves = _Moves(automaton.following)
+    onward = automaton.following[inside] - begins
+    ending = onward >= stops - begins
+    bursts = _Moves(onward, ~ending)
+
+    state = np.broadcast_to(noise_state(automaton, noise), (*leading, len(automaton)))
+    burst = np.zeros((*leading, positions, stops - begins))
     ends = []
     for position in range(_LONGEST_TAIL):
-        one = signal[..., position] if position < positions else np.full(signal.shape[:-1], noise)
-        wide = one[..., None]
-        ends.append((1.0 - wide) * zeros[..., -1])
-        moved = np.empty_like(zeros)
-        moved[..., 0] = wide * zeros.sum(axis=-1)
-        moved[..., 1:] = (1.0 - one)[..., None, None] * zeros[..., :-1]
-        zeros = moved
+        one = signal[..., position] if position < positions else np.full(leading, noise)
+        begun = burst[..., : min(position, positions), :]
+        end = np.zeros((*leading, positions))
+        end[..., :position] = _taken(ending, begun, one[..., None])
+        ends.append(end)
+        burst[..., :position, :] = bursts.step(begun, one[..., None])
         if position < positions:
-            zeros[..., position, 0] += start_probability(automaton, state, one)
-            state = step_chain(automaton, state, one)
-        elif zeros.sum(axis=(-2, -1)).max() < _REMAINDER:
+            burst[..., position, :] = declared.step(state, one)[..., inside]
+            state = moves.step(state, one)
+        elif burst.sum(axis=(-2, -1)).max() < _REMAINDER:
             break
     return StartEnd(
         np.stack(ends, axis=-1), np.arange(1, positions + 1), np.arange(1, len(ends) + 1)
     )
 
 
-def _transitions(automaton: Automaton) -> tuple[FloatArray, FloatArray]:
-    unit = np.eye(len(automaton))
-    return unit[automaton.following[:, 0]], unit[automaton.following[:, 1]]
-
-
-def _detecting(automaton: Automaton) -> npt.NDArray[np.bool_]:
-    enters = automaton.output[automaton.following[:, 1]] == Output.BURST
-    return enters & (automaton.output != Output.BURST)
+def _taken(which: npt.NDArray[np.bool_], state: FloatArray, one: npt.ArrayLike) -> FloatArray:
+    """Probability to take any of some transitions, `which` of shape (states, 2)."""
+    one = np.asarray(one, dtype=float)
+    on_zero, on_one = (state[..., which[:, bit]].sum(axis=-1) for bit in (0, 1))
+    return np.asarray(on_zero * (1.0 - one) + on_one * one)

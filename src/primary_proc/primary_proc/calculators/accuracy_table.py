@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.automata.automaton import Program
 from primary_proc.automata.automaton_chain import StartEnd, first_detection, start_end_distribution
+from primary_proc.automata.burst_rule import BurstRule
 from primary_proc.calculators.burst_shape import burst_shape
 from primary_proc.calculators.single_pulse import threshold_for
 from primary_proc.calculators.target_models import TARGETS, TargetModel
@@ -50,7 +50,7 @@ class AccuracyTable:
 
 
 def accuracy_table(
-    program: Program, noise: float, pattern: str, pulses: float, target: str = "steady"
+    rule: BurstRule, noise: float, pattern: str, pulses: float, target: str = "steady"
 ) -> AccuracyTable:
     """Make the table for a detector and a beam.
 
@@ -58,7 +58,7 @@ def accuracy_table(
     burst's pulses belongs to it.
 
     Args:
-        program: l/m-k.
+        rule: of the detector.
         noise: probability p_N of a one in noise.
         pattern: antenna pattern's name.
         pulses: N_0.
@@ -72,9 +72,9 @@ def accuracy_table(
     shape = burst_shape(pattern, pulses, _OFFSETS, book=False)
     amplitude = _AMPLITUDES[:, None, None] * shape
     signal = TARGETS[target].single_pulse(threshold, amplitude)
-    joint = start_end_distribution(program, noise, signal)
+    joint = start_end_distribution(rule.automaton, noise, signal)
     position = (shape.shape[-1] + 1) / 2.0 + _OFFSETS[:, None, None]
-    weight = _of_plots(program, joint, position, first_detection(program, noise, signal))
+    weight = _of_plots(rule.memory, joint, position, first_detection(rule.automaton, noise, signal))
     weight /= weight.sum(axis=(1, 2, 3), keepdims=True)
     error = (joint.start[:, None] + joint.end) / 2.0 - position
     bias = (weight * error).sum(axis=(1, 2, 3))
@@ -84,14 +84,14 @@ def accuracy_table(
 
 
 def _of_plots(
-    program: Program, joint: StartEnd, position: FloatArray, detected: FloatArray
+    memory: int, joint: StartEnd, position: FloatArray, detected: FloatArray
 ) -> FloatArray:
     """Probability of each start and end to be the burst that a plot is made of.
 
     Where a target gives several bursts, the one over its middle outweighs the fragments beside it. Those count as far
     as there is no burst over the middle.
     """
-    over = (joint.start[:, None] - program.window < position) & (joint.end >= position)
+    over = (joint.start[:, None] - memory - 1 < position) & (joint.end >= position)
     middle = np.where(over, joint.probability, 0.0)
     beside = joint.probability - middle
     alone = np.maximum(detected - middle.sum(axis=(-2, -1)), 0.0)

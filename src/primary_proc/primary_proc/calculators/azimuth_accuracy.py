@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bias and spread of the azimuth that a program detector's start and end give (Kuzmin 1967, § 3.3.6)."""
+"""Bias and spread of the azimuth that a binary detector's start and end give (Kuzmin 1967, § 3.3.6)."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.automata import cascade_chain
-from primary_proc.automata.automaton import Program
 from primary_proc.automata.automaton_chain import StartEnd, start_end_distribution
+from primary_proc.automata.book_chain import book_chain, zero_runs
+from primary_proc.automata.burst_rule import BurstRule
+from primary_proc.automata.program import Program
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -31,7 +32,7 @@ class AzimuthError:
 
 
 def azimuth_error(
-    program: Program,
+    rule: BurstRule,
     noise: float,
     signal: npt.ArrayLike,
     offset: npt.ArrayLike = 0.0,
@@ -42,7 +43,7 @@ def azimuth_error(
     Source: Kuzmin 1967, (3.95)-(3.103). "kuzmin" cuts ends off at N_0 + k as (3.103) does; "exact" does not.
 
     Args:
-        program: l/m-k.
+        rule: of the detector.
         noise: probability p_N of a one in noise.
         signal: probability of a one on each position of the target, shape (..., positions); for "kuzmin" (positions,).
         offset: target's displacement from the middle position, in steps, broadcast with the leading axes.
@@ -52,13 +53,13 @@ def azimuth_error(
         Errors, of the shape of the leading axes.
 
     Raises:
-        ValueError: the model is neither, or the book has no form for the program.
+        ValueError: the model is neither, or the book has no form for the rule.
     """
     signal = np.asarray(signal, dtype=float)
     if model == "exact":
-        joint = start_end_distribution(program, noise, signal)
+        joint = start_end_distribution(rule.automaton, noise, signal)
     elif model == "kuzmin":
-        joint = _kuzmin_distribution(program, noise, signal)
+        joint = _kuzmin_distribution(rule, noise, signal)
     else:
         raise ValueError(f"model {model!r} is neither exact nor kuzmin")
     bursts = joint.probability.sum(axis=(-2, -1))
@@ -69,25 +70,15 @@ def azimuth_error(
     return AzimuthError(mean - target, np.sqrt(np.maximum(square - mean**2, 0.0)), bursts)
 
 
-def nominal_bias(program: Program) -> float:
-    """Compensable shift (m + k - 1) / 2 in steps, taken with l for m as the exact chain shows to be right.
-
-    Args:
-        program: l/m-k.
-
-    Returns:
-        Steps.
-    """
-    return (program.ones + program.zeros - 1) / 2.0
-
-
-def _kuzmin_distribution(program: Program, noise: float, signal: FloatArray) -> StartEnd:
+def _kuzmin_distribution(rule: BurstRule, noise: float, signal: FloatArray) -> StartEnd:
     """P_lambda P(mu | lambda) of (3.101), what is left lumped at mu = N_0 + k."""
-    positions, zeros = len(signal), program.zeros
-    states = cascade_chain.signal_states(program, noise, signal)
-    starts = states[:, cascade_chain.detection_index(program)]
+    if not isinstance(rule, Program):
+        raise ValueError(f"Kuzmin 1967 gives the ends of programs only, not of {rule}")
+    chain = book_chain(rule)
+    positions, zeros = len(signal), rule.zeros
+    starts = chain.signal_states(noise, signal)[:, chain.detection]
     tail = np.concatenate([signal, np.full(zeros, noise)])
-    resets = cascade_chain.zero_runs(zeros, noise, tail)
+    resets = zero_runs(zeros, noise, tail)
     probability = np.zeros((positions, positions + zeros))
     for first in range(positions):
         left = 1.0

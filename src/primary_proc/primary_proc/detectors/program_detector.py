@@ -3,28 +3,20 @@
 
 While l + k > m, no m positions with l ones hold k zeros in a row: a detection never reaches back across the end of the
 burst before. So the automaton (Kuzmin 1967, Table 3.10) does exactly this: a burst starts at the first position after
-the last end where l of m positions are ones, the newest among them, and ends with the first k zeros after that. Both
-are patterns of shifted rows, and all detections before the same end are one burst.
+the last end where l of m positions are ones, the newest among them (the oldest, if the program declares late: 3.46),
+and ends with the first k zeros after that. Both are patterns of shifted rows, and all detections before the same end
+are one burst.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.automata.automaton import Program
-from primary_proc.detectors.burst_detector import BurstDetector, bursts, in_order
+from primary_proc.automata.program import Program
+from primary_proc.detectors.burst_detector import BurstDetector, bursts
+from primary_proc.detectors.open_bursts import OpenBursts
 from primary_proc.quantisers.binary_quantiser import unpack_cells
-
-
-class _Open(NamedTuple):
-    """Bursts that have not ended, in order of ring."""
-
-    ring: npt.NDArray[np.int64]
-    start: npt.NDArray[np.int64]
-    silent: npt.NDArray[np.bool_]
 
 
 class ProgramDetector(BurstDetector):
@@ -55,8 +47,7 @@ class ProgramDetector(BurstDetector):
     def reset(self) -> None:
         """Forget all past pulses."""
         self._past = np.zeros((self._history, self._words), np.uint64)
-        none = np.zeros(0, np.int64)
-        self._open = _Open(none, none, none > 0)
+        self._open = OpenBursts.none()
 
     def detect(self, samples: npt.NDArray, first: int) -> npt.NDArray[np.void]:
         """Go on with the next pulses; see `BurstDetector.detect`.
@@ -88,29 +79,29 @@ class ProgramDetector(BurstDetector):
         going_on[open_column] = open_stop
         begins = going_on[column] != stop
         begins[1:] &= (column[1:] != column[:-1]) | (stop[1:] != stop[:-1])
-        after = _Open(
-            np.concatenate([before.ring, ring[begins]]),
-            np.concatenate([before.start, first + pulse[begins]]),
-            np.concatenate([before.silent, np.zeros(np.count_nonzero(begins), bool)]),
+        stops = np.concatenate([open_stop, stop[begins]])
+        after = before.joined(ring[begins], first + pulse[begins])
+        closed, self._open = after.close(
+            first + stops.astype(np.int64), stops < pulses, self.longest
         )
-        return self._close(after, np.concatenate([open_stop, stop[begins]]), first, pulses)
+        return closed
 
     def open_bursts(self) -> npt.NDArray[np.void]:
         """List the bursts that have not ended."""
-        heard = ~self._open.silent
-        return bursts(self._open.ring[heard], self._open.start[heard], -1, False)
+        return self._open.heard()
 
     def _detections(
         self, words: npt.NDArray[np.uint64], pulses: int
     ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
         """Pulse and ring of every position where the pattern is met, in order of ring and pulse."""
         now = self._history
-        met = words[now:]
-        # enough[n]: the positions before this one, as far as looked at, hold n ones or more.
+        window, late = self._program.window, self._program.late
+        rows = [words[now - back : now - back + pulses] for back in range(window)]
+        met = rows.pop(window - 1 if late else 0)
+        # enough[n]: the other positions, as far as looked at, hold n ones or more.
         enough: dict[int, npt.NDArray[np.uint64]] = {}
-        for back in range(1, self._program.window):
-            row = words[now - back : now - back + pulses]
-            for count in range(min(back, self._program.ones - 1), 0, -1):
+        for looked, row in enumerate(rows, start=1):
+            for count in range(min(looked, self._program.ones - 1), 0, -1):
                 more = enough[count - 1] & row if count > 1 else row
                 enough[count] = enough[count] | more if count in enough else more
         if self._program.ones > 1:
@@ -134,25 +125,3 @@ class ProgramDetector(BurstDetector):
         numbers = np.arange(pulses, dtype=np.int32)[:, None]
         ends = np.where(busy == 0, numbers, np.int32(pulses))
         return np.minimum.accumulate(ends[::-1], axis=0)[::-1]
-
-    def _close(
-        self, going: _Open, stop: npt.NDArray[np.int32], first: int, pulses: int
-    ) -> npt.NDArray[np.void]:
-        """Split bursts into those that ended, which are returned, and those kept open."""
-        end = first + stop.astype(np.int64)
-        limit = going.start + self.longest
-        overflow = ~going.silent & (end > limit)
-        ended = stop < pulses
-        closed = overflow | (ended & ~going.silent)
-        kept = np.flatnonzero(~ended)
-        kept = kept[np.argsort(going.ring[kept], kind="stable")]
-        silent = going.silent | overflow
-        self._open = _Open(going.ring[kept], going.start[kept], silent[kept])
-        return in_order(
-            bursts(
-                going.ring[closed],
-                going.start[closed],
-                np.minimum(end, limit)[closed],
-                overflow[closed],
-            )
-        )

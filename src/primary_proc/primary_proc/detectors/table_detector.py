@@ -1,38 +1,42 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Any program detector by its transition table, one pulse at a time: the reference, and the way for every automaton."""
+"""Any binary detector by the transition table of its automaton: one step a pulse for all range rings at once."""
 
 from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.automata.automaton import Output, Program, program_automaton
-from primary_proc.detectors.burst_detector import BurstDetector, bursts, in_order
-from primary_proc.quantisers.binary_quantiser import unpack_cells
+from primary_proc.automata.automaton import Output
+from primary_proc.automata.burst_rule import BurstRule
+from primary_proc.detectors.burst_detector import BurstDetector, bursts
+from primary_proc.detectors.open_bursts import OpenBursts
 
 
 class TableDetector(BurstDetector):
-    """Steps `state = following[state, bit]` for all rings at once."""
+    """Steps `state = following[state, bit]`; looks at single rings only where a burst is under way."""
 
-    def __init__(self, program: Program, rings: int, longest: int) -> None:
+    def __init__(self, rule: BurstRule, rings: int, longest: int) -> None:
         """Start in the initial state.
 
         Args:
-            program: l/m-k.
+            rule: what to look for.
             rings: range rings.
             longest: limit of a burst's length, in pulses.
         """
-        self._automaton = program_automaton(program)
-        self.memory = program.window - 1
+        automaton = rule.automaton
+        # States are kept doubled, so that adding the bit makes them places in the flat table.
+        self._following = 2 * automaton.following.reshape(-1).astype(np.intp)
+        bounds = np.searchsorted(automaton.output, [Output.BURST, Output.END])
+        self._first_burst, self._first_end = (int(2 * bound) for bound in bounds)
+        self.memory = rule.memory
         self.longest = longest
-        self._rings = np.arange(rings)
+        self._rings = rings
         self.reset()
 
     def reset(self) -> None:
         """Forget all past pulses."""
-        self._state = np.zeros(len(self._rings), np.uint8)
-        self._start = np.zeros(len(self._rings), np.int64)
-        self._silent = np.zeros(len(self._rings), bool)
+        self._state = np.zeros(self._rings, np.intp)
+        self._open = OpenBursts.none()
 
     def detect(self, samples: npt.NDArray, first: int) -> npt.NDArray[np.void]:
         """Go on with the next pulses; see `BurstDetector.detect`.
@@ -44,25 +48,38 @@ class TableDetector(BurstDetector):
         Returns:
             Bursts that ended.
         """
-        closed = []
-        following, output = self._automaton.following, self._automaton.output
-        for pulse, bits in enumerate(unpack_cells(samples, self._rings), start=first):
-            before = output[self._state]
-            self._state = following[self._state, bits]
-            now = output[self._state]
-            self._start[(now == Output.BURST) & (before != Output.BURST)] = pulse
-            ended = (now == Output.END) & ~self._silent
-            overflowed = (
-                (now == Output.BURST) & ~self._silent & (pulse - self._start >= self.longest)
-            )
-            self._silent = (self._silent | overflowed) & (now != Output.END)
-            for which, overflow in ((ended, False), (overflowed, True)):
-                ring = np.flatnonzero(which)
-                closed.append(bursts(ring, self._start[ring], pulse, overflow))
-        return in_order(np.concatenate(closed)) if closed else bursts([], [], [], [])
+        states = self._walk(samples)
+        rings = np.flatnonzero((states >= self._first_burst).any(axis=0))
+        if not len(rings):
+            return bursts(rings, rings, rings, False)
+        seen = states[:, rings]
+        ending = (seen >= self._first_end).T
+        burst = (seen >= self._first_burst).T & ~ending
+        column, pulse = np.nonzero(burst[:, 1:] & ~burst[:, :-1])
+        before = self._open
+        after = before.joined(rings[column], first + pulse)
+
+        # The end of a burst is the next one of its ring; one more behind each ring's pulses stands for none.
+        span = len(seen)
+        ends = np.flatnonzero(np.pad(ending[:, 1:], ((0, 0), (0, 1)), constant_values=True))
+        begun = np.concatenate([np.searchsorted(rings, before.ring) * span, column * span + pulse])
+        end = ends[np.searchsorted(ends, begun)] % span
+        closed, self._open = after.close(first + end, end < span - 1, self.longest)
+        return closed
 
     def open_bursts(self) -> npt.NDArray[np.void]:
         """List the bursts that have not ended."""
-        going = (self._automaton.output[self._state] == Output.BURST) & ~self._silent
-        ring = np.flatnonzero(going)
-        return bursts(ring, self._start[ring], -1, False)
+        return self._open.heard()
+
+    def _walk(self, samples: npt.NDArray) -> npt.NDArray[np.intp]:
+        """State after each pulse, that before them first, shape (pulses + 1, rings)."""
+        octets = samples.view(np.uint8).reshape(len(samples), -1)
+        bits = np.unpackbits(octets, axis=1, count=self._rings)
+        states = np.empty((len(samples) + 1, self._rings), np.intp)
+        states[0] = self._state
+        place = np.empty(self._rings, np.intp)
+        for now, row in enumerate(bits):
+            np.add(states[now], row, out=place)
+            np.take(self._following, place, out=states[now + 1], mode="clip")
+        self._state = states[-1].copy()
+        return states

@@ -3,26 +3,12 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
-import numpy as np
-import numpy.typing as npt
-
-from primary_proc.automata.automaton import Program
-from primary_proc.calculators.accuracy_table import AccuracyTable, accuracy_table
-from primary_proc.calculators.detection_probability import detection_in_the_beam
-from primary_proc.calculators.false_alarms import (
-    false_plots_per_scan,
-    false_start_probability,
-    noise_probability_for_rate,
-)
+from primary_proc.automata.program import Program
 from primary_proc.detectors.burst_detector import BurstDetector
 from primary_proc.detectors.program_detector import ProgramDetector
-from primary_proc.detectors.table_detector import TableDetector
-from primary_proc.methods.detection_method import DetectionMethod, FloatArray, SettledMethod
+from primary_proc.methods.detection_method import DetectionMethod, SettledMethod
 from primary_proc.methods.requirements import Requirements
-from primary_proc.normalisers.normaliser import Normaliser
-from primary_proc.quantisers.binary_quantiser import BinaryQuantiser
+from primary_proc.methods.rule_method import SettledRule
 
 
 class ProgramMethod(DetectionMethod):
@@ -49,8 +35,8 @@ class ProgramMethod(DetectionMethod):
         return SettledProgram(self._program, requirements)
 
 
-class SettledProgram(SettledMethod):
-    """A program with the first threshold that gives the wanted false plots."""
+class SettledProgram(SettledRule):
+    """A program with its first threshold."""
 
     def __init__(self, program: Program, requirements: Requirements) -> None:
         """Invert the false-plot rate.
@@ -62,59 +48,8 @@ class SettledProgram(SettledMethod):
         Raises:
             ValueError: the rate is out of reach.
         """
-        self._program, self._asked = program, requirements
-        place = requirements.rings, requirements.pulses_per_scan, requirements.gap
-        self.noise_probability = noise_probability_for_rate(
-            program, requirements.false_plots, *place
-        )
-        self.false_starts = false_start_probability(program, self.noise_probability)
-        self.false_plots = false_plots_per_scan(program, self.noise_probability, *place)
-
-    @cached_property
-    def accuracy(self) -> AccuracyTable:
-        """From the exact chain; see `SettledMethod.accuracy`."""
-        asked = self._asked
-        return accuracy_table(
-            self._program, self.noise_probability, asked.pattern, asked.pulses, asked.target
-        )
-
-    def detection_probability(self, snr_db: npt.ArrayLike, target: str) -> FloatArray:
-        """From the absorbing chain; see `SettledMethod.detection_probability`.
-
-        Args:
-            snr_db: any shape.
-            target: name in `target_models.TARGETS`.
-
-        Returns:
-            Same shape.
-        """
-        asked = self._asked
-        return detection_in_the_beam(
-            self._program, self.noise_probability, asked.pattern, asked.pulses, snr_db, target
-        )
-
-    def quality(self, chance: FloatArray) -> FloatArray:
-        """Each of a false burst's ones exceeds the peak with the same probability; see `SettledMethod.quality`.
-
-        Args:
-            chance: shape (n,).
-
-        Returns:
-            Shape (n,).
-        """
-        stronger = np.clip(chance / self.noise_probability, 0.0, 1.0)
-        return np.asarray((1.0 - stronger) ** self._program.ones)
-
-    def quantiser(self, normaliser: Normaliser) -> BinaryQuantiser:
-        """Make the quantiser.
-
-        Args:
-            normaliser: that the ratios come from.
-
-        Returns:
-            The quantiser.
-        """
-        return BinaryQuantiser(normaliser.threshold(self.noise_probability))
+        super().__init__(program, requirements)
+        self._program = program
 
     def detector(self, rings: int, longest: int) -> BurstDetector:
         """Make a detector, bit-parallel where the program has such a form.
@@ -127,6 +62,6 @@ class SettledProgram(SettledMethod):
             The detector.
         """
         program = self._program
-        parallel = program.ones + program.zeros > program.window
-        kind = ProgramDetector if parallel else TableDetector
-        return kind(program, rings, longest)
+        if program.ones + program.zeros > program.window:
+            return ProgramDetector(program, rings, longest)
+        return super().detector(rings, longest)

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from primary_proc.automata.automaton import Program
-from primary_proc.calculators.azimuth_accuracy import AzimuthError, azimuth_error, nominal_bias
+from primary_proc.automata.program import Program
+from primary_proc.calculators.azimuth_accuracy import AzimuthError, azimuth_error
 from primary_proc.calculators.burst_shape import burst_shape
 from primary_proc.calculators.false_alarms import noise_probability
 from primary_proc.calculators.single_pulse import steady_probability, threshold_for
@@ -46,7 +46,7 @@ def azimuth_accuracies() -> Iterator[Row]:
         "(m + k - 1)/2 counts m positions up to the start, but 3/4-2 mostly starts on three ones in a row: l = 3 "
         "belongs in the place of m",
     )  # fmt: skip
-    yield Row("nominal bias with l for m, in steps", None, 2.0, nominal_bias(_PROGRAM), 1e-12)
+    yield Row("nominal bias with l for m, in steps", None, 2.0, _PROGRAM.nominal_bias, 1e-12)
     yield Row("P_fa = 0.004, a_0 = 3: starts a burst", None, 0.89, float(error.bursts), 6e-3)
     several = [
         float(_error(4e-3, 2.5, pulses=15, pattern="gaussian", model=model).bursts)

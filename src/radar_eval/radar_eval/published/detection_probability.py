@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from primary_proc.automata.automaton import Program
+from primary_proc.automata.program import Program
 from primary_proc.calculators.burst_shape import burst_shape
 from primary_proc.calculators.detection_probability import detection_probability
 from primary_proc.calculators.false_alarms import noise_probability

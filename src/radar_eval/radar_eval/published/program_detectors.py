@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from primary_proc.automata.automaton import Program
-from primary_proc.automata.cascade_chain import detection_index, noise_states
+from primary_proc.automata.book_chain import book_chain
+from primary_proc.automata.program import Program
 from primary_proc.calculators.false_alarms import false_start_probability, noise_probability
 from primary_proc.calculators.single_pulse import threshold_for
 from radar_eval.published.result import Row, to_digits
@@ -74,17 +74,17 @@ def program_detectors() -> Iterator[Row]:
 
 def _single_states() -> Iterator[Row]:
     simple, cascade = Program(3, 3, 2), Program(3, 4, 2)
-    states = noise_states(simple, 0.1)
+    states = book_chain(simple).noise_states(0.1)
     yield Row("3/3-2, p_N = 0.1: P_0 (3.65)", None, 0.899091, float(states[0]), 5.1e-7)
     yield Row("3/3-2, p_N = 0.1: P_3 (3.65)", None, 8.9909e-4, float(states[3]), 5.1e-9)
-    states = noise_states(cascade, 0.1)
+    states = book_chain(cascade).noise_states(0.1)
     yield Row("3/4-2, p_N = 0.1: P_0 (3.72)", None, 0.810211, float(states[0]), 5.1e-7)
     yield Row(
         "3/4-2, p_N = 0.1: P_3 of figure 3.16 (3.72)", None, 0.0801307, float(states[2]), 5.1e-8
     )
     yield Row(
         "3/4-2, p_N = 0.1: P_6 (3.72)", None, 2.34071e-3,
-        float(states[detection_index(cascade)]), 5.1e-9,
+        float(states[book_chain(cascade).detection]), 5.1e-9,
     )  # fmt: skip
     yield Row(
         "3/4-2, p_N = 0.1: P_0 by the approximation (3.73)", 0.8190, 0.810211, float(states[0]),
