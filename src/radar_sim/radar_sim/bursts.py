@@ -9,13 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from radar_common.frames import TWO_PI, FloatArray, polar_from_enu, wrap_pi
+from radar_sim.echoes import Echoes, IntArray
 from radar_sim.fluctuation import fluctuate
 from radar_sim.motion import State
 from radar_sim.radar import Radar
 from radar_sim.signal_strength import amplitude_from_snr, snr_db_at_range
 from radar_sim.targets import Targets
-
-IntArray = npt.NDArray[np.int64]
 
 _NEWTON_STEPS = 6
 _CONVERGED = 1e-9
@@ -40,21 +39,6 @@ class Crossings:
     distance: FloatArray
     azimuth: FloatArray
     state: State
-
-
-@dataclass(frozen=True, slots=True)
-class Echoes:
-    """Signal in range cells, one row for each pulse and cell that a target reaches, in order of the pulses.
-
-    Attributes:
-        pulse: number of the pulse since the start, shape (n,).
-        cell: range cell, shape (n,).
-        amplitude: complex, over the rms of one quadrature of the noise, shape (n,).
-    """
-
-    pulse: IntArray
-    cell: IntArray
-    amplitude: npt.NDArray[np.complex128]
 
 
 def find_crossings(targets: Targets, radar: Radar, turn: int) -> Crossings:
@@ -127,7 +111,7 @@ def make_echoes(
     carrier = np.exp(-2j * TWO_PI * np.mod(distance / radar.wavelength, 1.0))
     amplitude = amplitude_from_snr(snr_db) * radar.beam(alpha) * factors * carrier
     lit = (amplitude != 0.0) & (pulse >= 0) & targets.fleet.present(target, time)
-    return _into_cells(pulse[lit], distance[lit], amplitude[lit], radar)
+    return into_cells(pulse[lit], distance[lit], amplitude[lit], radar)
 
 
 def pulses_to_either_side(radar: Radar) -> int:
@@ -142,9 +126,20 @@ def pulses_to_either_side(radar: Radar) -> int:
     return int(np.ceil(radar.pulses_in_beam / 2 * radar.beam.extent * _RUN_ALONG)) + 1
 
 
-def _into_cells(
+def into_cells(
     pulse: IntArray, distance: FloatArray, amplitude: npt.NDArray[np.complex128], radar: Radar
 ) -> Echoes:
+    """Share echoes between the two cells whose centres they lie between.
+
+    Args:
+        pulse: number of each echo's pulse, shape (n,).
+        distance: m, shape (n,).
+        amplitude: over the rms of one quadrature of the noise, shape (n,).
+        radar: range cells.
+
+    Returns:
+        What falls into cells, in order of the pulses.
+    """
     along = (distance - radar.range_start) / radar.range_step - 0.5
     near = np.floor(along).astype(np.int64)
     share = along - near

@@ -26,6 +26,20 @@ def _fast(bursts: int, pulses: int, rng: np.random.Generator) -> ComplexArray:
     return _complex_normal((bursts, pulses), rng)
 
 
+def _slow_dominant(bursts: int, pulses: int, rng: np.random.Generator) -> ComplexArray:
+    return np.broadcast_to(_dominant((bursts, 1), rng), (bursts, pulses))
+
+
+def _fast_dominant(bursts: int, pulses: int, rng: np.random.Generator) -> ComplexArray:
+    return _dominant((bursts, pulses), rng)
+
+
+def _dominant(shape: tuple[int, int], rng: np.random.Generator) -> ComplexArray:
+    """Power chi-squared with four degrees of freedom, at random phase."""
+    amplitude = np.sqrt(rng.standard_gamma(2.0, shape) / 2.0)
+    return np.asarray(amplitude * np.exp(2j * np.pi * rng.random(shape)))
+
+
 def _complex_normal(shape: tuple[int, int], rng: np.random.Generator) -> ComplexArray:
     quadratures = rng.standard_normal((*shape, 2))
     return np.asarray((quadratures[..., 0] + 1j * quadratures[..., 1]) / np.sqrt(2.0))
@@ -35,8 +49,13 @@ FLUCTUATIONS: dict[str, Callable[[int, int, np.random.Generator], ComplexArray]]
     "none": _steady,
     "slow": _slow,
     "fast": _fast,
+    "slow-dominant": _slow_dominant,
+    "fast-dominant": _fast_dominant,
 }
 """Kuzmin 1967, § 1.2: no fluctuation; one Rayleigh amplitude a burst (Swerling 1); one a pulse (Swerling 2).
+
+With one dominant scatterer among many small ones the power has four degrees of freedom: once a burst (Swerling 3) or
+once a pulse (Swerling 4); P. Swerling, IRE Trans. IT-6, 1960.
 
 Each takes the number of bursts, of pulses in each and a generator, and returns factors of shape (bursts, pulses).
 """

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from radar_common.parameters import Parameters, parameter
-from radar_sim.receiver import SAMPLES
+from radar_sim.digitiser import SAMPLES, VIDEO_LAWS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,8 +28,14 @@ class SimulatorParameters(Parameters):
     sectors: int = parameter(32, "messages a turn", low=1, high=4096, read_only=True)
     sample: str = parameter(
         "float32",
-        "type of a video sample; the integers saturate at the scenario's full_scale",
+        "type of a video sample; linear integers saturate at the scenario's full_scale",
         choices=SAMPLES,
+        read_only=True,
+    )
+    video_law: str = parameter(
+        "linear",
+        "samples are the envelope, or count the scenario's db_per_count from its log_floor_db",
+        choices=VIDEO_LAWS,
         read_only=True,
     )
     rate: float = parameter(

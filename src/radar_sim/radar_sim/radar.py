@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from radar_common.antenna_pattern import PATTERNS, Pattern
-from radar_common.frames import TWO_PI
+from radar_common.frames import TWO_PI, wrap_pi
 from radar_common.parameters import ParameterError, Parameters, parameter
 
 SPEED_OF_LIGHT = 299_792_458.0
@@ -56,6 +56,23 @@ class Radar(Parameters):
     )
     full_scale: float = parameter(
         64.0, "envelope over noise_level at which integer video saturates", low=4.0, high=1e5
+    )
+    db_per_count: float = parameter(
+        0.4, "step of logarithmic video", unit="dB", low=1e-3, high=10.0
+    )
+    log_floor_db: float = parameter(
+        -20.0,
+        "level over noise_level at which logarithmic video is zero",
+        unit="dB",
+        low=-60.0,
+        high=20.0,
+    )
+    side_lobe_db: float = parameter(
+        -30.0,
+        "mean one-way level of the side lobes under the main lobe, through which interference comes in",
+        unit="dB",
+        low=-80.0,
+        high=0.0,
     )
     gain_swing_db: float = parameter(
         0.0,
@@ -146,6 +163,19 @@ class Radar(Parameters):
         """
         turns = np.asarray(pulse, dtype=float) / self.pulses_per_scan
         return TWO_PI * (turns - np.floor(turns))
+
+    def one_way_gain(self, azimuth: npt.ArrayLike, source: float) -> npt.NDArray[np.float64]:
+        """Power with which the antenna receives what arrives from a direction, main lobe or side lobes.
+
+        Args:
+            azimuth: of the beam's axis, rad, any shape.
+            source: direction of arrival, rad.
+
+        Returns:
+            Power gain over that of the axis, same shape.
+        """
+        alpha = wrap_pi(np.asarray(azimuth, dtype=float) - source) / self.half_width
+        return np.maximum(self.beam(alpha), 10.0 ** (self.side_lobe_db / 10.0))
 
     def gain(self) -> npt.NDArray[np.float64]:
         """Receiver gain of each range cell, which acts on noise and echoes alike.

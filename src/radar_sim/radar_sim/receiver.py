@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The receiver: noise, the envelope of signal and noise, and the digitiser.
+"""The receiver: its noise, the envelope of signal and noise, and the digitiser.
 
 One sample a cell: the noise behind a filter matched to a rectangular pulse is uncorrelated at distances of one pulse
 length, so the cells are independent. The envelope of noise is Rayleigh, that of a signal in noise Rice (Kuzmin 1967,
@@ -11,13 +11,13 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from radar_sim.bursts import Echoes
+from radar_sim.digitiser import Digitiser
+from radar_sim.echoes import Echoes
 from radar_sim.radar import Radar
+from radar_sim.random_phase import random_cosines
+from radar_sim.reception import Complex64Array, Float32Array, Reception
 
-FloatArray = npt.NDArray[np.float64]
-
-_INTEGER_CODES = {"uint8": 255, "uint16": 65535}
-SAMPLES = ("float32", *_INTEGER_CODES)
+_ROWS_IN_CACHE = 32
 
 
 class Receiver:
@@ -26,50 +26,67 @@ class Receiver:
     def __init__(
         self,
         radar: Radar,
-        sample: str,
+        digitiser: Digitiser,
         noise_rng: np.random.Generator,
         phase_rng: np.random.Generator,
+        field_phase_rng: np.random.Generator,
     ) -> None:
         """Set levels.
 
         Args:
-            radar: noise level, gain and full scale.
-            sample: type of a video sample, one of SAMPLES.
+            radar: number of cells.
+            digitiser: what makes samples of the power.
             noise_rng: source of the noise's envelope.
-            phase_rng: source of its phase, drawn only where there is a signal.
+            phase_rng: source of its phase, drawn only where there is an echo.
+            field_phase_rng: source of its phase in pulses with a signal in whole stretches of cells.
         """
         self._cells = radar.cells
+        self._digitiser = digitiser
         self._noise_rng = noise_rng
         self._phase_rng = phase_rng
-        self._largest = _INTEGER_CODES.get(sample)
-        unit = radar.noise_level
-        if self._largest is not None:
-            unit = self._largest / radar.full_scale
-        # Of the squared envelope: E² = 2 sigma² e, where e is exponential with mean one.
-        self._level = (2.0 * np.square(unit * radar.gain())).astype(np.float32)
+        self._field_phase_rng = field_phase_rng
         self._power = np.empty((0, radar.cells), np.float32)
 
-    def receive(self, video: npt.NDArray[np.generic], first: int, echoes: Echoes) -> None:
+    def receive(self, video: npt.NDArray[np.generic], reception: Reception) -> None:
         """Fill the video of successive pulses.
 
         Args:
             video: samples to write, shape (pulses, cells).
-            first: number of the first pulse.
-            echoes: signal, all of it within these pulses.
+            reception: what reaches the receiver in them.
         """
         if self._power.shape[0] != len(video):
             self._power = np.empty((len(video), self._cells), np.float32)
         power = self._power
         self._noise_rng.standard_exponential(out=power, dtype=np.float32)
-        self._add(power.reshape(-1), (echoes.pulse - first) * self._cells + echoes.cell, echoes)
-        power *= self._level
-        np.sqrt(power, out=power)
-        if self._largest is not None:
-            power += np.float32(0.5)
-            np.minimum(power, np.float32(self._largest), out=power)
-        np.copyto(video, power, casting="unsafe")
+        noise = reception.noise_power()
+        if noise is not None:
+            power *= noise
+        echoes, field = reception.signals()
+        if field is not None:
+            self._add_field(power, field, reception.filled)
+        index = (echoes.pulse - reception.first) * self._cells + echoes.cell
+        self._add_echoes(power.reshape(-1), index, echoes)
+        self._digitiser.digitise(power, video)
 
-    def _add(
+    def _add_field(
+        self, power: Float32Array, field: Complex64Array, filled: npt.NDArray[np.bool_]
+    ) -> None:
+        """|s + n|² = |s|² + |n|² + 2 |s| |n| cos phi: only the phase between signal and noise is needed."""
+        rows = np.flatnonzero(filled)
+        for first in range(0, len(rows), _ROWS_IN_CACHE):
+            part = rows[first : first + _ROWS_IN_CACHE]
+            of_field, noise = field[part], power[part]
+            signal = np.square(of_field.real)
+            signal += np.square(of_field.imag)
+            signal *= np.float32(0.5)
+            beat = np.sqrt(signal * noise)
+            beat *= random_cosines(len(part), self._cells, self._field_phase_rng)
+            beat *= np.float32(2.0)
+            signal += noise
+            signal += beat
+            power[part] = np.maximum(signal, np.float32(0.0))
+
+    def _add_echoes(
         self, power: npt.NDArray[np.float32], index: npt.NDArray[np.int64], echoes: Echoes
     ) -> None:
         reached, which = np.unique(index, return_inverse=True)

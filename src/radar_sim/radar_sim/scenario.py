@@ -13,13 +13,20 @@ import numpy as np
 import yaml
 
 from radar_common.parameters import ParameterError, Parameters
+from radar_sim.clutter.sections import CLUTTER
+from radar_sim.disturbance import Disturbance, DisturbanceSection
+from radar_sim.interference.sections import INTERFERENCE
 from radar_sim.radar import Radar
 from radar_sim.targets import LegSection, Target, Targets, TargetSection
 from radar_sim.traffic import TrafficSection, draw_traffic
 
 SectionT = TypeVar("SectionT", bound=Parameters)
 
-_KEYS = {"title", "radar", "targets", "traffic"}
+_DISTURBANCES: dict[str, dict[str, type[DisturbanceSection]]] = {
+    "clutter": CLUTTER,
+    "interference": INTERFERENCE,
+}
+_KEYS = {"title", "radar", "targets", "traffic", *_DISTURBANCES}
 
 
 class ScenarioError(ParameterError):
@@ -40,6 +47,7 @@ class Scenario:
     radar: Radar
     targets: tuple[Target, ...] = ()
     traffic: tuple[TrafficSection, ...] = ()
+    disturbances: tuple[DisturbanceSection, ...] = ()
     title: str = ""
 
     def draw(self, rng: np.random.Generator) -> Targets:
@@ -55,6 +63,21 @@ class Scenario:
         for group in self.traffic:
             drawn += draw_traffic(group, self.radar, rng)
         return Targets(drawn)
+
+    def disturb(self, seed: np.random.SeedSequence) -> list[Disturbance]:
+        """Make the sources of clutter and interference.
+
+        Args:
+            seed: spawns a stream for each of them, so that none changes another.
+
+        Returns:
+            Sources in the order of the scenario.
+        """
+        streams = map(np.random.default_rng, seed.spawn(len(self.disturbances)))
+        return [
+            section.disturbance(self.radar, rng)
+            for section, rng in zip(self.disturbances, streams, strict=True)
+        ]
 
 
 def scenario_names() -> list[str]:
@@ -123,10 +146,15 @@ def parse_scenario(text: str, *, source: str = "text") -> Scenario:
             _section(TrafficSection, entry, where)
             for where, entry in _entries(content, "traffic", "")
         ]
+        radar = _section(Radar, content.get("radar"), "radar")
+        disturbances = [
+            section for key in _DISTURBANCES for section in _disturbances(content, key, radar)
+        ]
         return Scenario(
-            radar=_section(Radar, content.get("radar"), "radar"),
+            radar=radar,
             targets=tuple(targets),
             traffic=tuple(traffic),
+            disturbances=tuple(disturbances),
             title=str(content.get("title", "")),
         )
     except ParameterError as error:
@@ -144,6 +172,27 @@ def _target(entry: Any, where: str) -> Target:
         return section.target(legs)
     except ParameterError as error:
         raise ParameterError(f"{where}: {error}") from error
+
+
+def _disturbances(content: Mapping[str, Any], key: str, radar: Radar) -> list[DisturbanceSection]:
+    kinds = content.get(key)
+    if kinds is None:
+        return []
+    if not isinstance(kinds, dict):
+        raise ParameterError(f"{key}: must be keys and values")
+    unknown = sorted(str(kind) for kind in kinds if kind not in _DISTURBANCES[key])
+    if unknown:
+        raise ParameterError(f"{key}: unknown key {', '.join(unknown)}")
+    sections = []
+    for kind, cls in _DISTURBANCES[key].items():
+        for where, entry in _entries(kinds, kind, f"{key}."):
+            section = _section(cls, entry, where)
+            try:
+                section.require_fit(radar)
+            except ParameterError as error:
+                raise ParameterError(f"{where}: {error}") from error
+            sections.append(section)
+    return sections
 
 
 def _entries(content: Mapping[str, Any], key: str, prefix: str) -> list[tuple[str, Any]]:

@@ -12,13 +12,14 @@ import numpy.typing as npt
 
 from radar_common.parameters import ParameterError
 from radar_common.tables import NANOSECONDS, RADAR_FRAME, SITE_FRAME, TRUTH, Table, sweep_dtype
-from radar_sim.bursts import Echoes, find_crossings, make_echoes, pulses_to_either_side
+from radar_sim.bursts import find_crossings, make_echoes, pulses_to_either_side
+from radar_sim.digitiser import Digitiser
+from radar_sim.echoes import EchoQueue
 from radar_sim.parameters import SimulatorParameters
 from radar_sim.receiver import Receiver
+from radar_sim.reception import Reception
 from radar_sim.scenario import Scenario, load_scenario
 from radar_sim.signal_strength import snr_db_at_range
-
-_NO_ECHOES = Echoes(np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0, np.complex128))
 
 
 class Sector(NamedTuple):
@@ -36,8 +37,9 @@ class Sector(NamedTuple):
 class Simulator:
     """Turns the antenna, sector by sector.
 
-    Noise, fluctuation and traffic come from independent streams of the seed and are drawn in order of pulses and
-    bursts, so the number of sectors changes nothing in the data but their division into messages.
+    Noise, fluctuation, traffic and every source of clutter and interference have independent streams of the seed and
+    draw in order of pulses and bursts, so the number of sectors changes nothing in the data but their division into
+    messages.
 
     Attributes:
         radar: the scenario's radar.
@@ -53,6 +55,7 @@ class Simulator:
         sectors: int = 32,
         scans: int = 0,
         sample: str = "float32",
+        video_law: str = "linear",
         start: int = 0,
     ) -> None:
         """Draw the traffic and point the antenna north.
@@ -63,6 +66,7 @@ class Simulator:
             sectors: messages a turn.
             scans: turns after which iteration ends, 0 for never.
             sample: type of a video sample: float32, uint8 or uint16.
+            video_law: linear or logarithmic.
             start: stamp of the first pulse, nanoseconds.
 
         Raises:
@@ -71,20 +75,22 @@ class Simulator:
         pulses = scenario.radar.pulses_per_scan
         if sectors > pulses:
             raise ParameterError(f"sectors {sectors} exceed the {pulses:g} pulses of a turn")
-        traffic, noise, phase, fluctuation = map(
-            np.random.default_rng, np.random.SeedSequence(seed).spawn(4)
-        )
+        *streams, disturbing = np.random.SeedSequence(seed).spawn(6)
+        traffic, noise, phase, fluctuation, field_phase = map(np.random.default_rng, streams)
         self.radar = scenario.radar
         self.targets = scenario.draw(traffic)
         self._fluctuation = fluctuation
-        self._receiver = Receiver(self.radar, sample, noise, phase)
+        self._receiver = Receiver(
+            self.radar, Digitiser(self.radar, sample, video_law), noise, phase, field_phase
+        )
+        self._disturbances = scenario.disturb(disturbing)
         self._dtype = sweep_dtype(self.radar.cells, sample)
         self._sectors = sectors
         self._number = scans * sectors if scans else None
         self.start = start
         self._sector = 0
         self._turns_made = 0
-        self._echoes = _NO_ECHOES
+        self._echoes = EchoQueue()
         self._truth = np.empty(0, TRUTH)
 
     @classmethod
@@ -92,7 +98,7 @@ class Simulator:
         """Build a simulator as the node does.
 
         Args:
-            parameters: scenario, seed, number of scans and sectors, sample type, start time.
+            parameters: scenario, seed, number of scans and sectors, sample type, video law, start time.
 
         Returns:
             The simulator.
@@ -107,6 +113,7 @@ class Simulator:
             sectors=parameters.sectors,
             scans=parameters.scans,
             sample=parameters.sample,
+            video_law=parameters.video_law,
             start=parameters.start_time * NANOSECONDS,
         )
 
@@ -150,9 +157,11 @@ class Simulator:
         rows["time_offset"] = pulses * radar.pulse_interval - since_start
         rows["range_start"] = radar.range_start
         rows["range_step"] = radar.range_step
-        taken = int(np.searchsorted(self._echoes.pulse, after))
-        self._receiver.receive(rows["video"], first, _slice(self._echoes, 0, taken))
-        self._echoes = _slice(self._echoes, taken, None)
+        reception = Reception(first, len(pulses), radar.cells)
+        reception.add_echoes(self._echoes.take(after))
+        for disturbance in self._disturbances:
+            disturbance.add_to(reception)
+        self._receiver.receive(rows["video"], reception)
         return rows
 
     def _take_truth(self, after: int, since_start: float) -> npt.NDArray[np.void]:
@@ -171,7 +180,7 @@ class Simulator:
     def _make_turn(self, turn: int) -> None:
         crossings = find_crossings(self.targets, self.radar, turn)
         echoes = make_echoes(crossings, self.targets, self.radar, self._fluctuation)
-        self._echoes = _merge(self._echoes, echoes)
+        self._echoes.add(echoes)
         covered = (crossings.distance >= self.radar.range_start) & (
             crossings.distance < self.radar.range_end
         )
@@ -188,17 +197,3 @@ class Simulator:
         truth = truth[covered]
         order = np.argsort(truth["time_offset"], kind="stable")
         self._truth = np.concatenate([self._truth, truth[order]])
-
-
-def _merge(before: Echoes, new: Echoes) -> Echoes:
-    pulse = np.concatenate([before.pulse, new.pulse])
-    order = np.argsort(pulse, kind="stable")
-    return Echoes(
-        pulse[order],
-        np.concatenate([before.cell, new.cell])[order],
-        np.concatenate([before.amplitude, new.amplitude])[order],
-    )
-
-
-def _slice(echoes: Echoes, begin: int, end: int | None) -> Echoes:
-    return Echoes(echoes.pulse[begin:end], echoes.cell[begin:end], echoes.amplitude[begin:end])

@@ -51,7 +51,7 @@ class TargetSection(Parameters):
     )
     fluctuation: str = parameter(
         "slow",
-        "of the echo: none, slow (Swerling 1), fast (Swerling 2)",
+        "of the echo: none, slow (Swerling 1), fast (2), slow-dominant (3), fast-dominant (4)",
         choices=tuple(FLUCTUATIONS),
     )
     appears: float = parameter(
