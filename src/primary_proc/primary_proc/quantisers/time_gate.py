@@ -60,10 +60,10 @@ def circuit_ones(
     """
     if samples_per_gate % 2:
         raise ValueError(f"a gate of {samples_per_gate} samples has no middle")
-    over: BoolArray = np.greater(envelope, threshold)
+    over: BoolArray = np.asarray(envelope > threshold)
     rises = np.zeros_like(over)
-    np.greater(over[:, 1:], over[:, :-1], out=rises[:, 1:])
-    halves = _gates(rises, samples_per_gate // 2).any(axis=-1)
+    rises[:, 1:] = over[:, 1:] & ~over[:, :-1]
+    halves: BoolArray = _gates(rises, samples_per_gate // 2).max(axis=-1)
     gates = halves.shape[1] // 2
     early, late = halves[:, : 2 * gates : 2], halves[:, 1 : 2 * gates : 2]
     return np.concatenate([np.zeros((len(over), 1), dtype=bool), _triggers(early, late)], axis=1)
