@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 from primary_proc.automata.program import Program
 from primary_proc.estimators.azimuth_estimator import AzimuthEstimator
 from primary_proc.estimators.start_end import StartEnd
+from primary_proc.methods.accumulator_method import AccumulatorMethod
 from primary_proc.methods.designed_method import DesignedMethod
 from primary_proc.methods.detection_method import DetectionMethod, SettledMethod
 from primary_proc.methods.program_method import ProgramMethod
 from primary_proc.methods.requirements import Requirements
+from primary_proc.methods.sequential_method import SequentialMethod
 from primary_proc.normalisers.cell_averaging import CellAveraging
 from primary_proc.normalisers.fixed_level import FixedLevel
 from primary_proc.normalisers.normaliser import Normaliser
@@ -28,7 +30,12 @@ NORMALISERS: dict[str, Callable[[ExtractorParameters, int], Normaliser]] = {
 }
 """Normalisers, each made for a number of range cells."""
 
-METHODS: dict[str, DetectionMethod] = {"auto": DesignedMethod()}
+METHODS: dict[str, DetectionMethod] = {
+    "auto": DesignedMethod(),
+    "accumulator-between-zeros": AccumulatorMethod(from_first_one=False),
+    "accumulator-from-first-one": AccumulatorMethod(from_first_one=True),
+    "sequential": SequentialMethod(),
+}
 """Burst detectors that have a name of their own; programs are named l/m-k, see `find_method`."""
 
 ESTIMATORS: dict[str, Callable[[SettledMethod, Requirements], AzimuthEstimator]] = {

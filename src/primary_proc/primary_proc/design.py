@@ -59,6 +59,8 @@ def requirements_for(parameters: ExtractorParameters, rings: int, step: float) -
         pattern=parameters.pattern,
         pulses=pulses,
         target=parameters.fluctuation,
+        second_threshold=parameters.second_threshold,
+        end_zeros=parameters.end_zeros,
     )
 
 

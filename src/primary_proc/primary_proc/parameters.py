@@ -26,6 +26,19 @@ class ExtractorParameters(Parameters):
         "burst detector: a program l/m-k, which is ones / positions that start a burst - zeros that end it, "
         f"or one of {', '.join(METHODS)}; auto takes the program that needs the least signal",
     )
+    second_threshold: int = parameter(
+        0,
+        "what the detector counts up to, where it counts: of an accumulator the positions of a burst; "
+        "0 lets it choose, 1.5 times the root of the pulses of a point target's burst",
+        low=0,
+        high=1000,
+    )
+    end_zeros: int = parameter(
+        2,
+        "accumulators: zeros in a row that end a burst; of a program its name says it",
+        low=1,
+        high=50,
+    )
     normaliser: str = parameter(
         "cell-averaging", "how the noise level is found", choices=tuple(NORMALISERS)
     )

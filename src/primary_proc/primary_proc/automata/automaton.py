@@ -122,7 +122,7 @@ def explore(
                 number[new] = len(reached)
                 reached.append(new)
         if len(reached) > MOST_STATES:
-            raise ValueError(f"its automaton has more than {MOST_STATES} states")
+            raise ValueError(f"the automaton of the detector has more than {MOST_STATES} states")
         following.append([number[new] for new in pair])
     return in_order_of_output(
         np.array(following), np.array([says(state) for state in reached], np.int8)
