@@ -8,13 +8,18 @@ from typing import TYPE_CHECKING
 
 from primary_proc.automata.program import Program
 from primary_proc.estimators.azimuth_estimator import AzimuthEstimator
+from primary_proc.estimators.calibration import calibrated
+from primary_proc.estimators.largest_sum import LargestSum
+from primary_proc.estimators.one_end import OneEnd
 from primary_proc.estimators.start_end import StartEnd
+from primary_proc.estimators.weighted_locators import amplitude_locator, binary_locator
 from primary_proc.methods.accumulator_method import AccumulatorMethod
 from primary_proc.methods.designed_method import DesignedMethod
 from primary_proc.methods.detection_method import DetectionMethod, SettledMethod
 from primary_proc.methods.program_method import ProgramMethod
 from primary_proc.methods.requirements import Requirements
 from primary_proc.methods.sequential_method import SequentialMethod
+from primary_proc.methods.window_methods import WINDOW_METHODS
 from primary_proc.normalisers.cell_averaging import CellAveraging
 from primary_proc.normalisers.fixed_level import FixedLevel
 from primary_proc.normalisers.normaliser import Normaliser
@@ -35,13 +40,18 @@ METHODS: dict[str, DetectionMethod] = {
     "accumulator-between-zeros": AccumulatorMethod(from_first_one=False),
     "accumulator-from-first-one": AccumulatorMethod(from_first_one=True),
     "sequential": SequentialMethod(),
+    **WINDOW_METHODS,
 }
 """Burst detectors that have a name of their own; programs are named l/m-k, see `find_method`."""
 
-ESTIMATORS: dict[str, Callable[[SettledMethod, Requirements], AzimuthEstimator]] = {
-    "start-end": lambda method, requirements: StartEnd(method.accuracy),
+ESTIMATORS: dict[str, Callable[[SettledMethod, Requirements, Normaliser], AzimuthEstimator]] = {
+    "start-end": lambda method, requirements, normaliser: StartEnd(method.accuracy),
+    "width": calibrated(OneEnd),
+    "weights-binary": calibrated(binary_locator),
+    "weights-amplitude": calibrated(amplitude_locator),
+    "peak": calibrated(LargestSum),
 }
-"""Azimuth estimators, each made for a detector that is set up."""
+"""Azimuth estimators, each made for a detector that is set up and the normaliser before it."""
 
 
 def find_method(name: str) -> DetectionMethod:

@@ -102,11 +102,12 @@ class ExtractionChain:
     def _block(
         self, video: npt.NDArray, azimuth: npt.NDArray, time: npt.NDArray
     ) -> npt.NDArray[np.void]:
-        first = self._log.append(azimuth, time, self._oldest())
+        oldest = self._oldest()
+        first = self._log.append(azimuth, time, oldest)
         ratios = self._meter.room(len(video))
         bad = self._normaliser.ratios(video, azimuth, ratios)
         if self._estimator.reach:
-            self._history.append(ratios, first, self._oldest() - self._estimator.reach)
+            self._history.append(ratios, first, oldest - self._estimator.reach)
         bits = self._quantiser.quantise(ratios)
         closed = self._whole(self._detector.detect(bits, first))
         going = self._detector.open_bursts()
@@ -151,7 +152,7 @@ class ExtractionChain:
         plan = self._design
         self._quantiser = plan.method.quantiser(self._normaliser)
         self._estimator = ESTIMATORS[self._parameters.azimuth_estimator](
-            plan.method, plan.requirements
+            plan.method, plan.requirements, self._normaliser
         )
         threshold = -math.log(plan.method.noise_probability)
         self._grid = Grid(range_start, range_step, plan.step, threshold)
