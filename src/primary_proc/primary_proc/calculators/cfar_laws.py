@@ -1,0 +1,300 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the noise level that a CFAR normaliser finds varies, for each kind of normaliser.
+
+All laws are for independent cells of exponentially distributed noise power of mean one (square-law detection of
+Gaussian noise). What a threshold does follows from one function of the law: noise exceeds a multiple T of the level Z
+with the probability E exp(-T Z), and an echo whose power is exponential, S times that of the noise in the mean, with
+E exp(-T Z / (1 + S)).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import gammainc, gammaincc, gammaln
+
+FloatArray = npt.NDArray[np.float64]
+
+_STEP = 1.0 / 32.0
+_LEVELS = np.exp(np.arange(-45.0, 7.0, _STEP))
+_NEGLIGIBLE = 1e-18
+
+
+class LevelLaw(ABC):
+    """Distribution of a noise level, in units of the mean noise power."""
+
+    @property
+    @abstractmethod
+    def mean(self) -> float:
+        """Mean of the level."""
+
+    @abstractmethod
+    def log_exceedance(self, multiplier: npt.ArrayLike) -> FloatArray:
+        """Logarithm of the probability that noise exceeds a multiple of the level: ln E exp(-T Z).
+
+        Args:
+            multiplier: T >= 0, any shape.
+
+        Returns:
+            Same shape; finite however small the probability is.
+        """
+
+    @abstractmethod
+    def quadrature(self) -> tuple[FloatArray, FloatArray]:
+        """Levels and their weights, for means over the law.
+
+        Returns:
+            Levels and weights, both of shape (nodes,); the weights have the sum one.
+        """
+
+
+@dataclass(frozen=True, slots=True)
+class KnownLevel(LevelLaw):
+    """The level is known: one."""
+
+    @property
+    def mean(self) -> float:
+        """One."""
+        return 1.0
+
+    def log_exceedance(self, multiplier: npt.ArrayLike) -> FloatArray:
+        """Exponential; see `LevelLaw.log_exceedance`.
+
+        Args:
+            multiplier: T >= 0, any shape.
+
+        Returns:
+            Same shape.
+        """
+        return -np.asarray(multiplier, dtype=float)
+
+    def quadrature(self) -> tuple[FloatArray, FloatArray]:
+        """One level; see `LevelLaw.quadrature`.
+
+        Returns:
+            Levels and weights, shape (1,).
+        """
+        return np.ones(1), np.ones(1)
+
+
+class EstimatedLevel(LevelLaw):
+    """A level with a smooth density."""
+
+    @abstractmethod
+    def density(self, level: npt.ArrayLike) -> FloatArray:
+        """Probability density of the level.
+
+        Args:
+            level: positive, any shape.
+
+        Returns:
+            Same shape.
+        """
+
+    def quadrature(self) -> tuple[FloatArray, FloatArray]:
+        """Equal steps of the logarithm, exact to rounding for densities as smooth as these; see `LevelLaw.quadrature`.
+
+        Returns:
+            Levels and weights, both of shape (nodes,).
+        """
+        weight = self.density(_LEVELS) * _LEVELS * _STEP
+        kept = weight > _NEGLIGIBLE
+        return _LEVELS[kept], weight[kept]
+
+
+@dataclass(frozen=True, slots=True)
+class AverageLevel(EstimatedLevel):
+    """Mean of N cells (Finn and Johnson 1968): P_fa = (1 + T / N)^-N.
+
+    Attributes:
+        cells: N.
+    """
+
+    cells: int
+
+    @property
+    def mean(self) -> float:
+        """One."""
+        return 1.0
+
+    def log_exceedance(self, multiplier: npt.ArrayLike) -> FloatArray:
+        """Of a gamma law; see `LevelLaw.log_exceedance`.
+
+        Args:
+            multiplier: T >= 0, any shape.
+
+        Returns:
+            Same shape.
+        """
+        return -self.cells * np.log1p(np.asarray(multiplier, dtype=float) / self.cells)
+
+    def density(self, level: npt.ArrayLike) -> FloatArray:
+        """Gamma; see `EstimatedLevel.density`.
+
+        Args:
+            level: positive, any shape.
+
+        Returns:
+            Same shape.
+        """
+        level = np.asarray(level, dtype=float)
+        count = self.cells
+        log = count * np.log(count) + (count - 1) * np.log(level) - count * level - gammaln(count)
+        return np.exp(log)
+
+
+@dataclass(frozen=True, slots=True)
+class GreatestLevel(EstimatedLevel):
+    """The greater of the means of two halves of n cells (V. G. Hansen, J. H. Sawyers, IEEE Trans. AES 16, 1980).
+
+    P. P. Gandhi and S. A. Kassam, IEEE Trans. AES 24, 1988, give P_fa as 2 (1 + s)^-n less a sum of n terms, s = T / n,
+    where nearly all digits cancel for small probabilities. The same without a difference: a half of which exp(-T Z) has
+    made the cells smaller, of mean 1 / (1 + s), is still the greater one with the probability that at least n of
+    2 n - 1 trials of probability 1 / (2 + s) succeed.
+
+    Attributes:
+        half: n.
+    """
+
+    half: int
+
+    @property
+    def mean(self) -> float:
+        """1 + C(2n, n) / 4^n."""
+        return 1.0 + _spread(self.half)
+
+    def log_exceedance(self, multiplier: npt.ArrayLike) -> FloatArray:
+        """A sum of positive terms; see `LevelLaw.log_exceedance`.
+
+        Args:
+            multiplier: T >= 0, any shape.
+
+        Returns:
+            Same shape.
+        """
+        share = np.asarray(multiplier, dtype=float) / self.half
+        return np.log(2.0) - self.half * np.log1p(share) + _log_still_greater(share, self.half)
+
+    def density(self, level: npt.ArrayLike) -> FloatArray:
+        """That of one half, the other being smaller; see `EstimatedLevel.density`.
+
+        Args:
+            level: positive, any shape.
+
+        Returns:
+            Same shape.
+        """
+        total = self.half * np.asarray(level, dtype=float)
+        return 2.0 * AverageLevel(self.half).density(level) * gammainc(self.half, total)
+
+
+@dataclass(frozen=True, slots=True)
+class SmallestLevel(EstimatedLevel):
+    """The smaller of the means of two halves of n cells (G. V. Trunk, IEEE Trans. AES 14, 1978).
+
+    Computed as the counterpart of `GreatestLevel`.
+
+    Attributes:
+        half: n.
+    """
+
+    half: int
+
+    @property
+    def mean(self) -> float:
+        """1 - C(2n, n) / 4^n."""
+        return 1.0 - _spread(self.half)
+
+    def log_exceedance(self, multiplier: npt.ArrayLike) -> FloatArray:
+        """What the greater half leaves; see `LevelLaw.log_exceedance`.
+
+        Args:
+            multiplier: T >= 0, any shape.
+
+        Returns:
+            Same shape.
+        """
+        share = np.asarray(multiplier, dtype=float) / self.half
+        still_smaller = np.log1p(-np.exp(_log_still_greater(share, self.half)))
+        return np.log(2.0) - self.half * np.log1p(share) + still_smaller
+
+    def density(self, level: npt.ArrayLike) -> FloatArray:
+        """That of one half, the other being greater; see `EstimatedLevel.density`.
+
+        Args:
+            level: positive, any shape.
+
+        Returns:
+            Same shape.
+        """
+        total = self.half * np.asarray(level, dtype=float)
+        return 2.0 * AverageLevel(self.half).density(level) * gammaincc(self.half, total)
+
+
+@dataclass(frozen=True, slots=True)
+class OrderedLevel(EstimatedLevel):
+    """The k-th smallest of N cells (H. Rohling, IEEE Trans. AES 19, 1983): P_fa = prod_{i<k} (N - i) / (N - i + T).
+
+    Attributes:
+        cells: N.
+        order: k, 1 for the smallest.
+    """
+
+    cells: int
+    order: int
+
+    @property
+    def mean(self) -> float:
+        """Sum of 1 / (N - i) for i < k."""
+        return float((1.0 / self._left()).sum())
+
+    def log_exceedance(self, multiplier: npt.ArrayLike) -> FloatArray:
+        """The gaps between ordered exponential values are independent; see `LevelLaw.log_exceedance`.
+
+        Args:
+            multiplier: T >= 0, any shape.
+
+        Returns:
+            Same shape.
+        """
+        share = np.asarray(multiplier, dtype=float)[..., None] / self._left()
+        return -np.log1p(share).sum(axis=-1)
+
+    def density(self, level: npt.ArrayLike) -> FloatArray:
+        """Of k - 1 smaller cells, N - k greater ones and one between; see `EstimatedLevel.density`.
+
+        Args:
+            level: positive, any shape.
+
+        Returns:
+            Same shape.
+        """
+        level = np.asarray(level, dtype=float)
+        smaller, greater = self.order - 1, self.cells - self.order
+        choices = gammaln(self.cells + 1) - gammaln(smaller + 1) - gammaln(greater + 1)
+        log = choices + smaller * np.log(-np.expm1(-level)) - (greater + 1) * level
+        return np.exp(log)
+
+    def _left(self) -> FloatArray:
+        """Cells that are not yet passed by, before each of the k gaps."""
+        return self.cells - np.arange(self.order, dtype=float)
+
+
+def _spread(half: int) -> float:
+    """C(2n, n) / 4^n, what the greater of two means is above one."""
+    return float(np.exp(gammaln(2 * half + 1) - 2.0 * gammaln(half + 1) - half * np.log(4.0)))
+
+
+def _log_still_greater(share: FloatArray, half: int) -> FloatArray:
+    """Logarithm of the chance of n or more successes in 2 n - 1 trials of probability 1 / (2 + s)."""
+    success = np.arange(half, 2 * half)
+    failure = 2 * half - 1 - success
+    choices = gammaln(2 * half) - gammaln(success + 1) - gammaln(failure + 1)
+    # ln p = -ln(2 + s), ln(1 - p) = ln(1 + s) - ln(2 + s)
+    kept = np.log1p(share)[..., None]
+    term = choices + failure * kept - (2 * half - 1) * np.log(2.0 + share)[..., None]
+    greatest = term.max(axis=-1, keepdims=True)
+    return np.log(np.exp(term - greatest).sum(axis=-1)) + greatest[..., 0]
