@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from primary_proc.calculators.target_models import TARGETS
 from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS, find_method
+from primary_proc.stream.video_law import VIDEO_LAWS
 from radar_common.antenna_pattern import PATTERNS
 from radar_common.parameters import ParameterError, Parameters, parameter
 
@@ -98,6 +99,18 @@ class ExtractorParameters(Parameters):
         "range cells that a target may fill; plots that fill more have quality 0",
         low=1,
         high=1000,
+    )
+    video_law: str = parameter(
+        "linear",
+        "samples are the envelope, or its logarithm in steps of db_per_count",
+        choices=VIDEO_LAWS,
+    )
+    db_per_count: float = parameter(
+        0.4,
+        "step of logarithmic video",
+        unit="dB",
+        low=1e-3,
+        high=10.0,
     )
 
     ppi_pixels: int = parameter(

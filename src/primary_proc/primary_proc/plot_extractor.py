@@ -10,6 +10,7 @@ from primary_proc.detectors.burst_detector import joined
 from primary_proc.extraction_chain import ExtractionChain
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.stream.sweep_stream import Pulses, SweepStream
+from primary_proc.stream.video_law import expansion
 from radar_common.cloud import TableError
 from radar_common.health import Health
 from radar_common.tables import NANOSECONDS, PLOT, RADAR_FRAME, Table
@@ -29,7 +30,9 @@ class PlotExtractor:
         """
         self._parameters = parameters
         self._health = health if health is not None else Health()
-        self._stream = SweepStream(self._health)
+        self._stream = SweepStream(
+            self._health, expansion(parameters.video_law, parameters.db_per_count)
+        )
         self._chain: ExtractionChain | None = None
         self._stamp, self._frame = 0, RADAR_FRAME
 

@@ -7,6 +7,7 @@ no more than a few steps. Anything else breaks the stream: what follows starts a
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -61,13 +62,15 @@ class SweepStream:
         origin: nanoseconds since the epoch from which times are counted; None before the first sector.
     """
 
-    def __init__(self, health: Health) -> None:
+    def __init__(self, health: Health, envelope: Callable[[npt.NDArray], npt.NDArray]) -> None:
         """Start with no pulse.
 
         Args:
             health: where breaks and drops are counted.
+            envelope: makes linear envelopes of samples, see `expansion`.
         """
         self._health = health
+        self._envelope = envelope
         self.origin: int | None = None
         self.restart()
 
@@ -158,7 +161,7 @@ class SweepStream:
         return [
             Pulses(
                 fresh=bool(breaks[begin]),
-                video=rows["video"][begin:end],
+                video=self._envelope(rows["video"][begin:end]),
                 azimuth=rows["azimuth"][begin:end],
                 time=time[begin:end],
                 range_start=float(rows["range_start"][begin]),
