@@ -58,9 +58,9 @@ class _Moves:
         zeros, ones = ((state * p).reshape(-1, size).T for p in (1.0 - wide, wide))
         return np.asarray((self._by_bit[0] @ zeros + self._by_bit[1] @ ones).T).reshape(state.shape)
 
-    def matrix(self, one: float) -> csr_array:
-        """Probability of each transition, shape (to, from)."""
-        return csr_array(self._by_bit[0] * (1.0 - one) + self._by_bit[1] * one)
+    def matrix(self, zero: float, one: float) -> csr_array:
+        """Probability of each transition from those of the bits, shape (to, from)."""
+        return csr_array(self._by_bit[0] * zero + self._by_bit[1] * one)
 
 
 def step_chain(automaton: Automaton, state: FloatArray, one: npt.ArrayLike) -> FloatArray:
@@ -95,7 +95,7 @@ def noise_state(automaton: Automaton, noise: float) -> FloatArray:
             matrix[automaton.following[:, bit], np.arange(size)] += probability
         others = np.linalg.solve(np.eye(size - 1) - matrix[1:, 1:], matrix[1:, 0])
     else:
-        moves = _Moves(automaton.following).matrix(noise)
+        moves = _Moves(automaton.following).matrix(1.0 - noise, noise)
         others = spsolve((identity(size - 1) - moves[1:, 1:]).tocsc(), moves[1:, [0]].toarray())
     state = np.concatenate([[1.0], others])
     return np.asarray(state / state.sum())
@@ -182,6 +182,33 @@ def start_end_distribution(automaton: Automaton, noise: float, signal: npt.Array
     return StartEnd(
         np.stack(ends, axis=-1), np.arange(1, positions + 1), np.arange(1, len(ends) + 1)
     )
+
+
+def bursts_without(automaton: Automaton, noise: float, marked: float) -> float:
+    """Share of the bursts of noise that hold no marked one, each one being marked by chance.
+
+    The ones of a burst are those since the automaton last was in its initial or an end state.
+
+    Args:
+        automaton: the automaton.
+        noise: probability p_N of a one.
+        marked: probability that a one is marked.
+
+    Returns:
+        Share.
+    """
+    limit = noise_state(automaton, noise)
+    burst = automaton.output == Output.BURST
+    ends = automaton.output == Output.END
+    fresh = ends.copy()
+    fresh[0] = True
+    plain = _Moves(automaton.following).matrix(1.0 - noise, noise * (1.0 - marked))
+    entering = (plain @ np.where(fresh, limit, 0.0))[~fresh]
+    inner = identity(len(entering)) - plain[~fresh][:, ~fresh]
+    without = np.zeros(len(automaton))
+    without[~fresh] = spsolve(inner.tocsc(), entering)
+    ended = (plain @ np.where(burst, without, 0.0))[ends].sum()
+    return float(ended / limit[ends].sum())
 
 
 def _taken(which: npt.NDArray[np.bool_], state: FloatArray, one: npt.ArrayLike) -> FloatArray:

@@ -62,9 +62,23 @@ def azimuth_error(
         joint = _kuzmin_distribution(rule, noise, signal)
     else:
         raise ValueError(f"model {model!r} is neither exact nor kuzmin")
+    return error_of(joint, signal.shape[-1], offset)
+
+
+def error_of(joint: StartEnd, pulses: int, offset: npt.ArrayLike = 0.0) -> AzimuthError:
+    """Errors from a joint distribution of start and end, (3.96)-(3.102).
+
+    Args:
+        joint: the distribution.
+        pulses: positions of the target.
+        offset: target's displacement from the middle position, in steps, broadcast with the leading axes.
+
+    Returns:
+        Errors, of the shape of the leading axes.
+    """
     bursts = joint.probability.sum(axis=(-2, -1))
     middle = (joint.start[:, None] + joint.end) / 2.0
-    target = (signal.shape[-1] + 1) / 2.0 + np.asarray(offset)
+    target = (pulses + 1) / 2.0 + np.asarray(offset)
     mean = (joint.probability * middle).sum(axis=(-2, -1)) / bursts
     square = (joint.probability * middle**2).sum(axis=(-2, -1)) / bursts
     return AzimuthError(mean - target, np.sqrt(np.maximum(square - mean**2, 0.0)), bursts)

@@ -73,6 +73,24 @@ def noise_probability(rule: BurstRule, false_start: float, model: str = "exact")
     return float(np.exp(brentq(excess, np.log(_SMALLEST), np.log(_LARGEST))))
 
 
+def false_bursts_per_second(
+    rule: BurstRule, noise: float, rings: int, pulse_rate: float, model: str = "exact"
+) -> float:
+    """False bursts of the whole coverage in a second, (3.75)-(3.76): b F P_fa.
+
+    Args:
+        rule: of the detector.
+        noise: probability p_N of a one.
+        rings: b, range rings.
+        pulse_rate: F, pulses a second.
+        model: "exact" or "kuzmin".
+
+    Returns:
+        Mean number of bursts, those that would merge counted each.
+    """
+    return rings * pulse_rate * false_start_probability(rule, noise, model)
+
+
 def false_plots_per_scan(
     rule: BurstRule, noise: float, rings: int, pulses_per_scan: float, gap: int = 0
 ) -> float:

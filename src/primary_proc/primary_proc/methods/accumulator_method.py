@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-import math
-
 from primary_proc.automata.accumulator import Accumulator
+from primary_proc.calculators.second_threshold import kuzmin_threshold
 from primary_proc.methods.detection_method import DetectionMethod, SettledMethod
 from primary_proc.methods.requirements import Requirements
 from primary_proc.methods.rule_method import SettledRule
@@ -33,6 +32,6 @@ class AccumulatorMethod(DetectionMethod):
         Returns:
             The method with its thresholds.
         """
-        threshold = requirements.second_threshold or round(1.5 * math.sqrt(requirements.pulses))
+        threshold = requirements.second_threshold or kuzmin_threshold(requirements.pulses)
         rule = Accumulator(threshold, requirements.end_zeros, self._from_first_one)
         return SettledRule(rule, requirements)

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from primary_proc.automata.automaton_chain import bursts_without
 from primary_proc.automata.burst_rule import BurstRule
 from primary_proc.calculators.accuracy_table import AccuracyTable, accuracy_table
 from primary_proc.calculators.detection_probability import detection_in_the_beam
@@ -22,6 +23,8 @@ from primary_proc.methods.detection_method import FloatArray, SettledMethod
 from primary_proc.methods.requirements import Requirements
 from primary_proc.normalisers.normaliser import Normaliser
 from primary_proc.quantisers.binary_quantiser import BinaryQuantiser
+
+_SHARES = 25
 
 
 class SettledRule(SettledMethod):
@@ -72,7 +75,7 @@ class SettledRule(SettledMethod):
         )
 
     def quality(self, chance: FloatArray) -> FloatArray:
-        """Each of a false burst's ones exceeds the peak with the same probability; see `SettledMethod.quality`.
+        """From the number of ones in bursts of noise; see `SettledMethod.quality`.
 
         Args:
             chance: shape (n,).
@@ -80,8 +83,16 @@ class SettledRule(SettledMethod):
         Returns:
             Shape (n,).
         """
-        stronger = np.clip(chance / self.noise_probability, 0.0, 1.0)
-        return np.asarray((1.0 - stronger) ** self._rule.automaton.fewest_ones)
+        share, weaker = self._peaks
+        return np.asarray(np.interp(chance / self.noise_probability, share, weaker))
+
+    @cached_property
+    def _peaks(self) -> tuple[FloatArray, FloatArray]:
+        """Shares of the ones that exceed a peak, and of the bursts of noise that do not."""
+        share = np.linspace(0.0, 1.0, _SHARES) ** 2
+        automaton = self._rule.automaton
+        weaker = [bursts_without(automaton, self.noise_probability, each) for each in share]
+        return share, np.clip(weaker, 0.0, 1.0)
 
     def quantiser(self, normaliser: Normaliser) -> BinaryQuantiser:
         """Make the quantiser.
