@@ -59,8 +59,11 @@ def requirements_for(parameters: ExtractorParameters, rings: int, step: float) -
         pattern=parameters.pattern,
         pulses=pulses,
         target=parameters.fluctuation,
+        snr_db=parameters.weights_snr_db,
         second_threshold=parameters.second_threshold,
         end_zeros=parameters.end_zeros,
+        levels=parameters.quantiser_levels,
+        level_kind=parameters.level_placement,
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from primary_proc.calculators.level_thresholds import LEVEL_KINDS
 from primary_proc.calculators.target_models import TARGETS
 from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS, find_method
 from primary_proc.stream.video_law import VIDEO_LAWS
@@ -39,6 +40,21 @@ class ExtractorParameters(Parameters):
         "accumulators: zeros in a row that end a burst; of a program its name says it",
         low=1,
         high=50,
+    )
+    weights_snr_db: float = parameter(
+        10.0,
+        "signal-to-noise ratio at the beam's axis that the weights of weighting detectors are made for",
+        unit="dB",
+        low=-20.0,
+        high=40.0,
+    )
+    quantiser_levels: int = parameter(
+        8, "levels of the envelope that detector multi-level tells apart", low=2, high=64
+    )
+    level_placement: str = parameter(
+        "weak-signal",
+        "how detector multi-level places the thresholds between its levels",
+        choices=tuple(LEVEL_KINDS),
     )
     normaliser: str = parameter(
         "cell-averaging", "how the noise level is found", choices=tuple(NORMALISERS)

@@ -21,6 +21,8 @@ class Requirements:
         snr_db: power over the mean noise power at the beam's axis that weights are made for.
         second_threshold: what the detector counts up to, where it counts; 0 lets the method choose.
         end_zeros: zeros in a row that end a burst, where the method's name does not say it.
+        levels: of the envelope, where the detector has more than two.
+        level_kind: how the thresholds between them are placed, a name in `level_thresholds.LEVEL_KINDS`.
     """
 
     false_plots: float
@@ -33,3 +35,5 @@ class Requirements:
     snr_db: float = 10.0
     second_threshold: int = 0
     end_zeros: int = 2
+    levels: int = 8
+    level_kind: str = "weak-signal"

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import PchipInterpolator
 from scipy.special import gammaincinv, ndtr, ndtri
 
 from primary_proc.calculators.accuracy_table import AccuracyTable
@@ -125,7 +124,7 @@ class DetectionCurve:
             pulses: N_0.
             target: name in `TARGETS`; of what is common to a burst's pulses, its mean.
         """
-        self._make = lambda: TargetTrials(parts, pattern, pulses, target, DETECTION_TRIALS)
+        self._of = parts, pattern, pulses, target
         self._known: dict[int, float] = {}
 
     def __call__(self, snr_db: FloatArray) -> FloatArray:
@@ -138,21 +137,22 @@ class DetectionCurve:
             Probability, shape (n,).
         """
         asked = np.clip(snr_db, _WEAKEST_DB + 1, _STRONGEST_DB - 2)
-        around = np.floor(asked)[:, None] + np.arange(-1, 3)
-        missing = sorted(set(np.unique(around).astype(int).tolist()) - set(self._known))
-        if missing:
-            trials = self._make()
-            for node in missing:
-                sure = any(self._known[k] == 1.0 for k in self._known if k < node)
-                self._known[node] = 1.0 if sure else trials.found_share(float(node))
-        node = np.array(sorted(self._known), dtype=float)
-        rounding = 0.5 / DETECTION_TRIALS
-        share = np.clip([self._known[int(n)] for n in node], rounding, 1.0 - rounding)
-        # Over the signal the probability is nearly a normal distribution: its quantile bends least.
-        found = ndtr(PchipInterpolator(node, ndtri(share))(asked))
-        return np.where(
-            found <= 1.01 * rounding, 0.0, np.where(found >= 1.0 - 1.01 * rounding, 1.0, found)
-        )
+        nodes = np.floor(asked)[:, None].astype(int) + np.arange(-1, 3)
+        missing = sorted(set(np.unique(nodes).tolist()) - set(self._known))
+        trials = TargetTrials(*self._of, DETECTION_TRIALS) if missing else None
+        for node in missing:
+            sure = any(share == 1.0 for below, share in self._known.items() if below < node)
+            self._known[node] = 1.0 if sure or not trials else trials.found_share(float(node))
+        # Over the signal in dB the quantile of the normal distribution bends least: a cubic through four values.
+        least = 0.5 / DETECTION_TRIALS
+        known = np.array([self._known[node] for node in nodes.ravel().tolist()])
+        before, here, there, after = ndtri(np.clip(known, least, 1.0 - least)).reshape(-1, 4).T
+        part = asked - nodes[:, 1]
+        slope, far_slope = (there - before) / 2.0, (after - here) / 2.0
+        rise = there - here
+        bend = (1.0 - part) * (slope - rise) - part * (far_slope - rise)
+        found = ndtr(here + part * rise + part * (1.0 - part) * bend)
+        return np.where((found > 1.01 * least) & (found < 1.0 - 1.01 * least), found, found.round())
 
 
 def accuracy_tables(
