@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -85,9 +86,9 @@ def make_echoes(
     """Compute what the pulses of each burst bring back.
 
     Every pulse sees its target where it is at that pulse's own time: its angle off the axis, its range cell, its
-    distance by the fourth-power law and its carrier phase. The receiver is matched to a rectangular pulse as long
-    as a range cell, so its response is a triangle two cells wide: an echo between two cell centres is shared
-    linearly, (1 - d) and d, with one phase in both.
+    distance by the fourth-power law and its carrier phase. Behind the matched filter an echo covers several cells,
+    with one phase in all. A rectangular pulse as long as a cell becomes a triangle two cells wide: an echo between
+    two cell centres is shared linearly, (1 - d) and d.
 
     Args:
         crossings: bursts to make.
@@ -129,23 +130,26 @@ def pulses_to_either_side(radar: Radar) -> int:
 def into_cells(
     pulse: IntArray, distance: FloatArray, amplitude: npt.NDArray[np.complex128], radar: Radar
 ) -> Echoes:
-    """Share echoes between the two cells whose centres they lie between.
+    """Share echoes among the cells that the pulse covers, by the distance of their centres.
 
     Args:
         pulse: number of each echo's pulse, shape (n,).
         distance: m, shape (n,).
         amplitude: over the rms of one quadrature of the noise, shape (n,).
-        radar: range cells.
+        radar: range cells and the shape of the pulse in them.
 
     Returns:
         What falls into cells, in order of the pulses.
     """
     along = (distance - radar.range_start) / radar.range_step - 0.5
     near = np.floor(along).astype(np.int64)
-    share = along - near
-    cell = np.concatenate([near, near + 1])
-    pulse = np.concatenate([pulse, pulse])
-    amplitude = np.concatenate([(1.0 - share) * amplitude, share * amplitude])
+    samples = radar.samples_per_pulse
+    reach = math.ceil(radar.response.echo_extent * samples)
+    offset = np.arange(1 - reach, reach + 1)[:, None]
+    share = radar.response.echo((offset - (along - near)) / samples)
+    cell = (near + offset).ravel()
+    pulse = np.broadcast_to(pulse, share.shape).ravel()
+    amplitude = (share * amplitude).ravel()
     inside = (cell >= 0) & (cell < radar.cells)
     order = np.argsort(pulse[inside], kind="stable")
     return Echoes(pulse[inside][order], cell[inside][order], amplitude[inside][order])

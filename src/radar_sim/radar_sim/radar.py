@@ -12,6 +12,7 @@ import numpy.typing as npt
 from radar_common.antenna_pattern import PATTERNS, Pattern
 from radar_common.frames import TWO_PI, wrap_pi
 from radar_common.parameters import ParameterError, Parameters, parameter
+from radar_common.pulse_response import PULSE_RESPONSES, PulseResponse
 
 SPEED_OF_LIGHT = 299_792_458.0
 
@@ -20,7 +21,7 @@ _MINIMUM_PULSES = 16
 
 @dataclass(frozen=True, kw_only=True)
 class Radar(Parameters):
-    """A rotating two-coordinate pulse radar with a receiver matched to its rectangular pulse."""
+    """A rotating two-coordinate pulse radar with a receiver matched to its pulse."""
 
     x: float = parameter(0.0, "antenna east of the map's origin", unit="m")
     y: float = parameter(0.0, "antenna north of the map's origin", unit="m")
@@ -42,12 +43,23 @@ class Radar(Parameters):
     )
     range_step: float = parameter(
         108.0,
-        "length of a range cell, which is that of the pulse: c / 2 times its duration",
+        "length of a range cell; the pulse, c / 2 times its duration, is samples_per_pulse times as long",
         unit="m",
         low=0.1,
         high=1e4,
     )
     cells: int = parameter(1024, "number of range cells", low=4, high=65536)
+    samples_per_pulse: int = parameter(
+        1,
+        "range cells in a pulse length; from 2 on, noise and echoes of neighbouring cells are correlated",
+        low=1,
+        high=32,
+    )
+    pulse_shape: str = parameter(
+        "rectangular",
+        "pulse with its matched filter; of gaussian-book, noise changes 2.5 times as fast as it can",
+        choices=tuple(PULSE_RESPONSES),
+    )
     wavelength: float = parameter(
         0.107, "carrier wavelength; sets how echoes in one cell beat", unit="m", low=1e-3, high=10.0
     )
@@ -136,6 +148,16 @@ class Radar(Parameters):
     def beam(self) -> Pattern:
         """The pattern that `pattern` names."""
         return PATTERNS[self.pattern]
+
+    @property
+    def response(self) -> PulseResponse:
+        """Pulse and noise along range that `pulse_shape` names."""
+        return PULSE_RESPONSES[self.pulse_shape]
+
+    @property
+    def independent_cells(self) -> bool:
+        """Whether noise of neighbouring cells is independent: one cell in a rectangular pulse."""
+        return self.samples_per_pulse == 1 and self.response.noise_extent <= 1.0
 
     @property
     def half_width(self) -> float:

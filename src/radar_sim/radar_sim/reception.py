@@ -8,6 +8,8 @@ jamming make sigma² = sigma_1² + sigma_2² + sigma_3².
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import numpy.typing as npt
 
@@ -97,8 +99,13 @@ class Reception:
         pulse_noise = (self._pulse_noise + np.float32(1.0))[:, None]
         return pulse_noise if self._cell_noise is None else self._cell_noise + pulse_noise
 
-    def signals(self) -> tuple[Echoes, Complex64Array | None]:
+    def signals(
+        self, spread: Callable[[Complex64Array], Complex64Array] | None = None
+    ) -> tuple[Echoes, Complex64Array | None]:
         """Sum of the signals.
+
+        Args:
+            spread: what the pulse makes, along range, of the signal in whole stretches; echoes have it in them.
 
         Returns:
             (echoes, field): echoes in pulses that are not `filled`, and the complex amplitude of all cells with the
@@ -107,6 +114,8 @@ class Reception:
         echoes = joined(*self._echoes)
         if self._signal is None:
             return echoes, None
+        if spread is not None:
+            self._signal = spread(self._signal)
         within = self.filled[echoes.pulse - self.first]
         inside = echoes.where(within)
         np.add.at(

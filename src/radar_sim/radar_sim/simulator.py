@@ -20,6 +20,7 @@ from radar_sim.receiver import Receiver
 from radar_sim.reception import Reception
 from radar_sim.scenario import Scenario, load_scenario
 from radar_sim.signal_strength import snr_db_at_range
+from radar_sim.waveform_receiver import WaveformReceiver
 
 
 class Sector(NamedTuple):
@@ -80,8 +81,11 @@ class Simulator:
         self.radar = scenario.radar
         self.targets = scenario.draw(traffic)
         self._fluctuation = fluctuation
-        self._receiver = Receiver(
-            self.radar, Digitiser(self.radar, sample, video_law), noise, phase, field_phase
+        digitiser = Digitiser(self.radar, sample, video_law)
+        self._receiver: Receiver | WaveformReceiver = (
+            Receiver(self.radar, digitiser, noise, phase, field_phase)
+            if self.radar.independent_cells
+            else WaveformReceiver(self.radar, digitiser, noise)
         )
         self._disturbances = scenario.disturb(disturbing)
         self._dtype = sweep_dtype(self.radar.cells, sample)

@@ -113,11 +113,14 @@ class OtherRadar(Disturbance):
         begin = (time - pulse * radar.pulse_interval) * per_second
         begin -= radar.range_start / radar.range_step
         end = begin + section.pulse_length * per_second
-        nearest = np.floor(begin).astype(np.int64)
-        width = math.ceil(section.pulse_length * per_second) + 1
+        # The filter takes the mean over a pulse of this radar's: its output is how much of that the other's fills.
+        window = radar.samples_per_pulse
+        nearest = np.floor(begin - (window - 1) / 2.0).astype(np.int64)
+        width = math.ceil(section.pulse_length * per_second) + window
         cell = nearest[:, None] + np.arange(width)
-        # The filter's output is how much of the cell the pulse fills.
-        share = np.minimum(cell + 1, end[:, None]) - np.maximum(cell, begin[:, None])
+        first = cell - (window - 1) / 2.0
+        share = np.minimum(first + window, end[:, None]) - np.maximum(first, begin[:, None])
+        share /= window
         amplitude = amplitude_from_snr(section.snr_db) * np.sqrt(power)
         signal = np.maximum(share, 0.0) * (amplitude * np.exp(2j * np.pi * phase))[:, None]
         inside = (share > 0.0) & (cell >= 0) & (cell < radar.cells)
