@@ -47,11 +47,15 @@ def main(argv: list[str] | None = None) -> int:
     arguments = _parser().parse_args(argv)
     try:
         prediction = _predict(arguments)
+        # Drawing is for people at a desk; a node's machine need not have matplotlib.
         if arguments.figures is not None:
-            # Drawing is for people at a desk; a node's machine need not have matplotlib.
             from primary_proc.figures.design_curves import draw_design
 
             draw_design(prediction, arguments.figures)
+        if arguments.book_figures is not None:
+            from primary_proc.figures.book_figures import draw_book_figures
+
+            draw_book_figures(arguments.book_figures)
     except (ValueError, OSError, ImportError) as error:
         print(f"error: {' '.join(str(error).split())}", file=sys.stderr)
         return 1
@@ -84,7 +88,12 @@ def _parser() -> argparse.ArgumentParser:
         "--params", type=Path, help="parameter file of plot_extractor to start from"
     )
     parser.add_argument("--json", action="store_true", help="print for machines")
-    parser.add_argument("--figures", type=Path, help="folder to draw the curves into")
+    parser.add_argument("--figures", type=Path, help="folder to draw the design's curves into")
+    parser.add_argument(
+        "--book-figures",
+        type=Path,
+        help="folder to draw the curves of Kuzmin 1967, chapter 3, into",
+    )
     return parser
 
 
