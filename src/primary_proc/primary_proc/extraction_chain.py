@@ -55,6 +55,7 @@ class ExtractionChain:
         self._log = PulseLog()
         self._history = RatioHistory(self._normaliser)
         self._begin = 0
+        self._going = self._detector.open_bursts()
         self._tune()
 
     def fits(self, pulses: Pulses) -> bool:
@@ -92,9 +93,10 @@ class ExtractionChain:
         Returns:
             Plots that waited for a neighbour.
         """
-        self._health.drop("bursts cut by a break", len(self._detector.open_bursts()))
+        self._health.drop("bursts cut by a break", len(self._going))
         plots = self._plots(self._merger.finish())
         self._detector.reset()
+        self._going = self._detector.open_bursts()
         self._meter.reset()
         self._begin = self._log.next
         return plots
@@ -110,9 +112,9 @@ class ExtractionChain:
             self._history.append(ratios, first, oldest - self._estimator.reach)
         bits = self._quantiser.quantise(ratios)
         closed = self._whole(self._detector.detect(bits, first))
-        going = self._detector.open_bursts()
-        self._meter.measure(closed, going, first)
-        plots = self._plots(self._merger.add(closed, going, self._log.next - 1))
+        self._going = self._detector.open_bursts()
+        self._meter.measure(closed, self._going, first)
+        plots = self._plots(self._merger.add(closed, self._going, self._log.next - 1))
 
         self._health.drop("samples that are not finite, taken as zero", bad)
         self._health.count("pulses in", len(video))
@@ -123,7 +125,7 @@ class ExtractionChain:
     def _whole(self, closed: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
         """Leave out bursts that were under way when the stream began: their true start was not seen."""
         whole = closed["start"] > self._begin + self._detector.memory
-        if whole.all():
+        if np.logical_and.reduce(whole):
             return closed
         self._health.drop("bursts cut by a break", int((~whole).sum()))
         return closed[whole]
@@ -161,8 +163,9 @@ class ExtractionChain:
         self._rates = RateWatch(plan, cells, self._health)
 
     def _oldest(self) -> int:
-        starts = [self._detector.open_bursts()["start"], self._merger.waiting["start"]]
-        return min((int(s.min()) for s in starts if len(s)), default=self._log.next) - _MARGIN
+        starts = (self._going["start"], self._merger.waiting["start"])
+        oldest = [int(np.minimum.reduce(start)) for start in starts if len(start)]
+        return min([self._log.next, *oldest]) - _MARGIN
 
 
 def _layout(pulses: Pulses) -> tuple[int, float, float]:

@@ -105,4 +105,12 @@ def joined(*tables: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
         The rows of all, in order.
     """
     filled = [table for table in tables if len(table)]
-    return np.concatenate(filled) if len(filled) > 1 else (filled or tables)[0]
+    if len(filled) < 2:
+        return (filled or tables)[0]
+    # Numpy's own concatenation works out a common structure field by field, each time.
+    whole = np.empty(sum(map(len, filled)), filled[0].dtype)
+    begin = 0
+    for table in filled:
+        whole[begin : begin + len(table)] = table
+        begin += len(table)
+    return whole

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from primary_proc.calculators.cfar_loss import averaging_loss_db
-from primary_proc.normalisers.normaliser import FloatArray, Normaliser, square_finite
+from primary_proc.normalisers.normaliser import FloatArray, Normaliser, square_in_place
 
 Block = npt.NDArray[np.float32]
 
@@ -45,9 +45,13 @@ class CellAveraging(Normaliser):
         self._cells, self._reference, self._guard = cells, reference, guard
         self._pad = guard + reference
         width = cells + 2 * self._pad
-        self._rows = max(1, _BLOCK_BYTES // (4 * width))
+        self._rows = _power_of_two(_BLOCK_BYTES // (4 * width))
         self._power = np.zeros((self._rows, width), np.float32)
         self._sums, self._additions = self._plan()
+        self._tested = self._power.reshape(-1)[self._pad :][: len(self._sums)]
+        whole = self._sums.base
+        assert whole is not None
+        self._divided = whole.reshape(self._power.shape)[:, :cells]
         self.noise_scale = self._count.astype(float)
 
     def ratios(self, video: npt.NDArray, azimuth: FloatArray, out: npt.NDArray[np.float32]) -> int:
@@ -63,16 +67,18 @@ class CellAveraging(Normaliser):
         """
         inner = self._power[:, self._pad : self._pad + self._cells]
         bad = 0
-        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-            # A block of pulses stays in the processor's cache from the first pass to the last.
+        with np.errstate(all="ignore"):
+            # A block of pulses stays in the processor's cache from the first pass to the last. Only the first and the
+            # last pass go pulse by pulse, which costs numpy several times as much as going through all at once.
             for first in range(0, len(video), self._rows):
                 block = video[first : first + self._rows]
                 count = len(block)
-                bad += square_finite(block, inner[:count])
+                inner[:count] = block
+                bad += square_in_place(self._power[:count])
                 for one, other, total in self._additions:
                     np.add(one, other, out=total)
-                sums = self._sums[:count, : self._cells]
-                np.divide(inner[:count], sums, out=out[first : first + count])
+                np.divide(self._tested, self._sums, out=self._sums)
+                out[first : first + count] = self._divided[:count]
         return bad
 
     def threshold(self, probability: float) -> FloatArray:
@@ -125,23 +131,24 @@ class CellAveraging(Normaliser):
     def _plan(self) -> tuple[Block, list[tuple[Block, Block, Block]]]:
         """Lay out the additions that lead to the sums over both halves of the window.
 
-        Pulses lie one behind another in flat buffers; the zeros between them keep their windows apart.
+        Pulses lie one behind another in flat buffers; the zeros between them keep their windows apart. Each array ends
+        where its windows would leave the block.
 
         Returns:
-            The sums, shape (pulses of a block, width), column c for cell c, and the additions in their order.
+            The sums, shape (n,), number r * width + c for cell c of pulse r, and the additions in their order.
         """
-        power = self._power.reshape(-1)
-        buffers = [np.zeros_like(power) for _ in range(3)]
+        buffers = [np.zeros(self._power.size, np.float32) for _ in range(3)]
         additions = []
 
         def add(one: Block, other: Block, shift: int, *kept: Block | None) -> Block:
             """Add an array, moved, to another, into a buffer that neither they nor the kept one use."""
-            total = next(b for b in buffers if not any(b is used for used in (one, other, *kept)))
-            size = len(total) - shift
-            additions.append((one[:size], other[shift:], total[:size]))
-            return total
+            used = [array.base for array in (one, other, *kept) if array is not None]
+            free = next(b for b in buffers if not any(b is base for base in used))
+            size = min(len(one), len(other) - shift)
+            additions.append((one[:size], other[shift : shift + size], free[:size]))
+            return free[:size]
 
-        doubled, half, width, covered = power, None, 1, 0
+        doubled, half, width, covered = self._power.reshape(-1), None, 1, 0
         while width <= self._reference:
             if self._reference & width:
                 half = doubled if half is None else add(half, doubled, covered)
@@ -150,8 +157,7 @@ class CellAveraging(Normaliser):
                 doubled = add(doubled, doubled, width, half)
             width *= 2
         assert half is not None
-        sums = add(half, half, self._reference + 2 * self._guard + 1)
-        return sums.reshape(self._power.shape), additions
+        return add(half, half, self._reference + 2 * self._guard + 1), additions
 
 
 def _window_population(cells: int, reference: int, guard: int) -> npt.NDArray[np.int64]:
@@ -160,3 +166,8 @@ def _window_population(cells: int, reference: int, guard: int) -> npt.NDArray[np
     behind = np.clip(cell - guard, 0, reference)
     ahead = np.clip(cells - 1 - cell - guard, 0, reference)
     return behind + ahead
+
+
+def _power_of_two(number: int) -> int:
+    """Largest one that is not above a number, one at least; sectors are often multiples of it."""
+    return 1 << max(number.bit_length() - 1, 0)

@@ -60,16 +60,22 @@ class PowerMeter:
         ring = np.concatenate([closed["ring"], going["ring"]])
         if not len(ring):
             return
+        count = len(closed)
         start = np.concatenate([closed["start"], going["start"]])
         last = first + self._used - self._memory - 1
-        stop = np.concatenate([closed["end"], np.full(len(going), last)])
+        stop = np.full(len(ring), last)
+        stop[:count] = closed["end"]
         carried = start < first
         begin = np.where(carried, first, start - self._memory)
-        length = stop - begin + 1
-        offset = np.concatenate([[0], np.cumsum(length)[:-1]])
-        row = np.arange(length.sum()) + np.repeat(begin - offset - first + self._memory, length)
-        peak = np.fmax.reduceat(self._ratios[row, np.repeat(ring, length)], offset)
+        # A limit that has just become shorter ends a burst before these pulses.
+        length = np.maximum(stop - begin + 1, 1)
+        end = np.add.accumulate(length)
+        offset = end - length
+        cells = self._ratios.shape[1]
+        place = np.repeat((begin - offset - first + self._memory) * cells + ring, length)
+        place += np.arange(0, len(place) * cells, cells)
+        peak = np.fmax.reduceat(self._ratios.reshape(-1)[place], offset)
         peak = np.minimum(peak * self._scale[ring], LARGEST_POWER)
         peak = np.where(carried, np.fmax(peak, self._running[ring]), peak)
-        closed["power"] = peak[: len(closed)]
-        self._running[going["ring"]] = peak[len(closed) :]
+        closed["power"] = peak[:count]
+        self._running[going["ring"]] = peak[count:]

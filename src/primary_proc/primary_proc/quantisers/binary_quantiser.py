@@ -9,6 +9,7 @@ import numpy.typing as npt
 from primary_proc.quantisers.quantiser import Quantiser
 
 _WORD = 64
+_TILE = 32
 
 
 class BinaryQuantiser(Quantiser):
@@ -20,7 +21,8 @@ class BinaryQuantiser(Quantiser):
         Args:
             threshold: on the ratio of each cell, shape (cells,).
         """
-        self._threshold = np.asarray(threshold, np.float32)
+        # The threshold of several pulses: numpy compares them at once, several times faster than pulse by pulse.
+        self._thresholds = np.tile(np.asarray(threshold, np.float32), (_TILE, 1))
         self._bits = np.zeros((0, 0), bool)
         self.ones = 0
 
@@ -36,8 +38,11 @@ class BinaryQuantiser(Quantiser):
         pulses, cells = ratios.shape
         if len(self._bits) != pulses:
             self._bits = np.zeros((pulses, -(-cells // _WORD) * _WORD), bool)
+        bits = self._bits[:, :cells]
         with np.errstate(invalid="ignore"):
-            np.greater(ratios, self._threshold, out=self._bits[:, :cells])
+            for first in range(0, pulses, _TILE):
+                part = slice(first, first + _TILE)
+                np.greater(ratios[part], self._thresholds[: pulses - first], out=bits[part])
         self.ones = int(np.count_nonzero(self._bits))
         return np.packbits(self._bits.reshape(-1)).view(np.uint64).reshape(pulses, -1)
 

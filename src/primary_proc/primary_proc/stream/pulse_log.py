@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from radar_common.frames import wrap_pi, wrap_two_pi
+from radar_common.frames import TWO_PI, wrap_two_pi
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -52,13 +52,12 @@ class PulseLog:
             (azimuth, time): rad in [0, 2 pi) and s, shape (n,).
         """
         oldest = self.next - len(self._azimuth)
-        place = np.clip(np.asarray(position) - oldest, 0, len(self._azimuth) - 1)
-        before = np.floor(place).astype(np.int64)
-        after = np.minimum(before + 1, len(self._azimuth) - 1)
+        last = len(self._azimuth) - 1
+        place = np.minimum(np.maximum(np.asarray(position) - oldest, 0.0), last)
+        before = place.astype(np.int64)
+        after = np.minimum(before + 1, last)
         part = place - before
-        turn = wrap_pi(self._azimuth[after] - self._azimuth[before])
-        pause = self._time[after] - self._time[before]
-        return (
-            wrap_two_pi(self._azimuth[before] + part * turn),
-            self._time[before] + part * pause,
-        )
+        azimuth, time = self._azimuth[before], self._time[before]
+        turn = self._azimuth[after] - azimuth
+        turn -= TWO_PI * np.rint(turn / TWO_PI)
+        return wrap_two_pi(azimuth + part * turn), time + part * (self._time[after] - time)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -53,6 +54,16 @@ class Pulses:
     range_start: float
     range_step: float
     azimuth_step: float
+
+
+class _Pulse(NamedTuple):
+    """What the next pulse is held against."""
+
+    layout: np.dtype[np.void]
+    azimuth: float
+    time: float
+    range_start: float
+    range_step: float
 
 
 class SweepStream:
@@ -106,7 +117,7 @@ class SweepStream:
     def restart(self) -> None:
         """Forget the pulses before and what is known of the rotation."""
         self._held: list[tuple[npt.NDArray[np.void], FloatArray]] = []
-        self._last: npt.NDArray[np.void] | None = None
+        self._last: _Pulse | None = None
         self._latest = -np.inf
         self._step = self._period = 0.0
         self._advance, self._advanced = 0.0, 0
@@ -144,62 +155,70 @@ class SweepStream:
 
     def _split(self, rows: npt.NDArray[np.void], time: FloatArray) -> list[Pulses]:
         """Cut pulses where they do not continue each other."""
-        turn, breaks = self._breaks(rows, time)
-        if np.count_nonzero(breaks[1:]) > _UNEVEN * len(rows):
-            self._health.drop("pulses whose azimuth or time advances unevenly", len(rows))
-            self.restart()
-            self._latest = float(time[-1])
-            return []
+        if self._last is not None and self._last.layout != rows.dtype:
+            self._health.drop("stream broken by other range cells")
+            self._last = None
+        last = self._last or _pulse(rows, time, 0)
+        azimuth = rows["azimuth"].astype(np.float64)
+        turn = _turns(np.concatenate([[last.azimuth], azimuth]))
+        pause = time - np.concatenate([[last.time], time[:-1]])
+        breaks = self._jumps(turn, pause) | self._other_cells(rows, last)
+        breaks[0] |= self._last is None
+        inner = np.flatnonzero(breaks[1:]) + 1
+        if len(inner) > _UNEVEN * len(rows):
+            return self._lose("pulses whose azimuth or time advances unevenly", time)
         if not self._follow(turn[~breaks]):
-            self._health.drop("pulses while the antenna stands still or turns back", len(rows))
-            self.restart()
-            self._latest = float(time[-1])
-            return []
-        self._last = np.array(rows[-1:])
-        self._last_time = float(time[-1])
-        bounds = [0, *np.flatnonzero(breaks[1:]) + 1, len(rows)]
+            return self._lose("pulses while the antenna stands still or turns back", time)
+        self._last = _pulse(rows, time, -1)
         return [
             Pulses(
                 fresh=bool(breaks[begin]),
                 video=self._envelope(rows["video"][begin:end]),
-                azimuth=rows["azimuth"][begin:end],
+                azimuth=azimuth[begin:end],
                 time=time[begin:end],
                 range_start=float(rows["range_start"][begin]),
                 range_step=float(rows["range_step"][begin]),
                 azimuth_step=self._step,
             )
-            for begin, end in pairwise(bounds)
+            for begin, end in pairwise([0, *inner, len(rows)])
         ]
 
-    def _breaks(
-        self, rows: npt.NDArray[np.void], time: FloatArray
-    ) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
-        """Turn of the antenna before each pulse, and whether the stream breaks there."""
-        last = self._last
-        if last is None or last.dtype != rows.dtype:
-            if last is not None:
-                self._health.drop("stream broken by other range cells")
-            before, before_time, started = rows[:1], float(time[0]), True
-        else:
-            before, before_time, started = last, self._last_time, False
+    def _lose(self, reason: str, time: FloatArray) -> list[Pulses]:
+        """Give up pulses and what was known of the rotation."""
+        self._health.drop(reason, len(time))
+        self.restart()
+        self._latest = float(time[-1])
+        return []
 
-        turn = _turns(np.concatenate([before["azimuth"], rows["azimuth"]]))
-        pause = np.diff(time, prepend=before_time)
-        jumped = (turn < _BACK * self._step) | (turn > _AHEAD * self._step) | (pause < 0.0)
-        if self._period:
-            jumped |= pause > _PAUSE * self._period
-        other = np.zeros(len(rows), bool)
-        for name in ("range_start", "range_step"):
-            layout = rows[name]
-            if (layout != before[name]).any():
-                other |= layout != np.concatenate([before[name], layout[:-1]])
+    def _jumps(self, turn: FloatArray, pause: FloatArray) -> npt.NDArray[np.bool_]:
+        """Tell at which pulses azimuth or time does not go on."""
+        back, ahead = _BACK * self._step, _AHEAD * self._step
+        longest = _PAUSE * self._period if self._period else np.inf
+        steady = (
+            np.minimum.reduce(turn) >= back
+            and np.maximum.reduce(turn) <= ahead
+            and np.minimum.reduce(pause) >= 0.0
+            and np.maximum.reduce(pause) <= longest
+        )
+        if steady:
+            return np.zeros(len(turn), bool)
+        jumped = (turn < back) | (turn > ahead) | (pause < 0.0) | (pause > longest)
         self._health.drop(
             "stream broken by a gap or jump of azimuth or time", int(np.count_nonzero(jumped))
         )
+        return jumped
+
+    def _other_cells(self, rows: npt.NDArray[np.void], last: _Pulse) -> npt.NDArray[np.bool_]:
+        """Tell at which pulses the range cells are not those of the pulse before."""
+        other = np.zeros(len(rows), bool)
+        for layout, before in (
+            (rows["range_start"], last.range_start),
+            (rows["range_step"], last.range_step),
+        ):
+            if np.logical_or.reduce(layout != before):
+                other |= layout != np.concatenate([[before], layout[:-1]])
         self._health.drop("stream broken by other range cells", int(np.count_nonzero(other)))
-        breaks = jumped | other
-        breaks[0] |= started
-        return turn, breaks
+        return other
 
     def _follow(self, turn: FloatArray) -> bool:
         """Average the azimuth step; tell whether the antenna turns at all."""
@@ -215,6 +234,18 @@ class SweepStream:
         self._step += share * (mean - self._step)
         self._advance, self._advanced = 0.0, 0
         return True
+
+
+def _pulse(rows: npt.NDArray[np.void], time: FloatArray, index: int) -> _Pulse:
+    """Note one of some pulses."""
+    row = rows[index]
+    return _Pulse(
+        rows.dtype,
+        float(row["azimuth"]),
+        float(time[index]),
+        float(row["range_start"]),
+        float(row["range_step"]),
+    )
 
 
 def _turns(azimuth: FloatArray) -> FloatArray:
