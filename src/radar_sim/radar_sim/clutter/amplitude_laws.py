@@ -23,8 +23,9 @@ from radar_common.frames import FloatArray
 LAWS = ("rayleigh", "k", "weibull")
 
 _NODES = 2000
-_LEVELS = 800
-_LOWEST, _HIGHEST = 1e-9, 200.0
+_LEVELS = 300
+_TAIL = 1e-9
+_LARGEST_EXPONENT = 700.0
 
 
 def texture_quantile(law: str, shape: float, normal: FloatArray) -> FloatArray:
@@ -52,28 +53,33 @@ def _weibull_texture(index: float, normal: FloatArray) -> FloatArray:
     """Invert the distribution of 1 / S, S positive stable.
 
     With U uniform on (0, pi) and W exponential, S = (A(U) / W)^((1 - a) / a) (Kanter 1975), so that
-    P(1 / S > t) is the mean of exp(-A(U) t^(a / (1 - a))) over U.
+    P(1 / S <= t) is one less the mean of exp(-A(U) t^(a / (1 - a))) over U.
     """
-    angle = np.pi * (np.arange(_NODES) + 0.5) / _NODES
+    # A grows without bound towards pi, where small textures come from: nodes are dense there.
+    node = (np.arange(_NODES) + 0.5) / _NODES
+    angle = np.pi * (1.0 - node**3)
+    weight = 3.0 * np.square(node) / _NODES
     power = index / (1.0 - index)
     log_a = (
         np.log(np.sin((1.0 - index) * angle))
         + power * np.log(np.sin(index * angle))
-        - (1.0 + power) * np.log(np.sin(angle))
+        - (1.0 + power) * np.log(np.sin(np.pi * node**3))
     )
-    # A is smallest at U = 0: from there the levels reach from both ends of the distribution.
     smallest = math.log(1.0 - index) + power * math.log(index)
-    log_level = np.linspace(
-        (math.log(_LOWEST) - np.median(log_a)) / power,
-        (math.log(_HIGHEST) - smallest) / power,
-        _LEVELS,
+    # The law's lower tail is t^a / Gamma(1 - a); its upper one ends where even the smallest A leaves nothing.
+    lowest = math.log(_TAIL * math.gamma(1.0 - index)) / index
+    highest = (math.log(-2.0 * math.log(_TAIL)) - smallest) / power
+    level = np.unique(
+        [
+            np.linspace(lowest, highest, _LEVELS),
+            highest - np.geomspace(1e-3, highest - lowest, _LEVELS),
+        ]
     )
-    below, above = np.empty(_LEVELS), np.empty(_LEVELS)
-    for place, level in enumerate(log_level):
-        exponent = np.exp(np.minimum(log_a + power * level, 700.0))
-        below[place], above[place] = -np.expm1(-exponent).mean(), np.exp(-exponent).mean()
-    known = np.where(below < 0.5, ndtri(below), -ndtri(above))
-    rising = np.concatenate([[True], np.diff(np.maximum.accumulate(known)) > 0.0])
-    rising &= np.isfinite(known)
-    log_texture = np.interp(normal, known[rising], log_level[rising])
-    return np.exp(log_texture) / math.gamma(1.0 + 1.0 / index)
+    below, above = np.empty_like(level), np.empty_like(level)
+    for place, log_texture in enumerate(level):
+        exponent = np.exp(np.minimum(log_a + power * log_texture, _LARGEST_EXPONENT))
+        below[place] = weight @ -np.expm1(-exponent)
+        above[place] = weight @ np.exp(-exponent)
+    known = np.where(below < 0.5, ndtri(np.minimum(below, 0.5)), -ndtri(np.minimum(above, 0.5)))
+    rising = np.isfinite(known) & (np.diff(known, prepend=-np.inf) > 0.0)
+    return np.exp(np.interp(normal, known[rising], level[rising])) / math.gamma(1.0 + 1.0 / index)
