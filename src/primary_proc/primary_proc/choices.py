@@ -22,15 +22,31 @@ from primary_proc.methods.sequential_method import SequentialMethod
 from primary_proc.methods.window_methods import WINDOW_METHODS
 from primary_proc.normalisers.cell_averaging import CellAveraging
 from primary_proc.normalisers.fixed_level import FixedLevel
+from primary_proc.normalisers.half_sums import GreatestOf, SmallestOf
 from primary_proc.normalisers.normaliser import Normaliser
+from primary_proc.normalisers.ordered_statistic import OrderedStatistic
 
 if TYPE_CHECKING:
     from primary_proc.parameters import ExtractorParameters
 
-NORMALISERS: dict[str, Callable[[ExtractorParameters, int], Normaliser]] = {
+RANGE_WINDOWS: dict[str, Callable[[ExtractorParameters, int], Normaliser]] = {
     "cell-averaging": lambda parameters, cells: CellAveraging(
         cells, parameters.reference_cells, parameters.guard_cells
     ),
+    "greatest-of": lambda parameters, cells: GreatestOf(
+        cells, parameters.reference_cells, parameters.guard_cells
+    ),
+    "smallest-of": lambda parameters, cells: SmallestOf(
+        cells, parameters.reference_cells, parameters.guard_cells
+    ),
+    "ordered-statistic": lambda parameters, cells: OrderedStatistic(
+        cells, parameters.reference_cells, parameters.guard_cells, parameters.order
+    ),
+}
+"""Normalisers that look at reference cells in range, each made for a number of range cells."""
+
+NORMALISERS: dict[str, Callable[[ExtractorParameters, int], Normaliser]] = {
+    **RANGE_WINDOWS,
     "fixed-level": lambda parameters, cells: FixedLevel(cells, parameters.noise_level),
 }
 """Normalisers, each made for a number of range cells."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from primary_proc.calculators.level_thresholds import LEVEL_KINDS
 from primary_proc.calculators.target_models import TARGETS
-from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS, find_method
+from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS, RANGE_WINDOWS, find_method
 from primary_proc.stream.video_law import VIDEO_LAWS
 from radar_common.antenna_pattern import PATTERNS
 from radar_common.parameters import ParameterError, Parameters, parameter
@@ -61,16 +61,22 @@ class ExtractorParameters(Parameters):
     )
     reference_cells: int = parameter(
         16,
-        "cell averaging: reference cells on each side; a power of two is fastest",
+        "reference cells on each side that tell the noise level; a power of two is fastest",
         low=2,
         high=256,
     )
     guard_cells: int = parameter(
         2,
-        "cell averaging: cells on each side left out beside the one under test, "
-        "so that a target does not raise its own threshold",
+        "cells on each side left out beside the one under test, so that a target does not raise its own threshold",
         low=0,
         high=64,
+    )
+    order: float = parameter(
+        0.75,
+        "ordered-statistic: rank of the reference cell that is the noise level, as a share of all of them; "
+        "the share above it may hold other echoes",
+        low=0.05,
+        high=1.0,
     )
     noise_level: float = parameter(
         0.0,
@@ -148,7 +154,7 @@ class ExtractorParameters(Parameters):
             raise ParameterError(str(error)) from error
         if self.normaliser == "fixed-level" and self.noise_level == 0.0:
             raise ParameterError("normaliser fixed-level needs a noise_level over 0")
-        if self.normaliser == "cell-averaging" and self.guard_cells > 2 * self.reference_cells:
+        if self.normaliser in RANGE_WINDOWS and self.guard_cells > 2 * self.reference_cells:
             raise ParameterError(
                 f"{self.guard_cells} guard_cells lie between a cell and its {self.reference_cells} reference_cells: "
                 "a noise level from so far away is not that of the cell"
