@@ -81,11 +81,10 @@ class ExtractionChain:
         Raises:
             ValueError: the rotation has changed to one that the parameters do not fit.
         """
+        finished = _NO_PLOTS
         if abs(pulses.azimuth_step / self._design.step - 1.0) > _RETUNE:
-            self._design = design(self._parameters, self._layout[0], pulses.azimuth_step)
-            self._tune()
-            self._health.count("changes of the rotation")
-        return joined(*[self._block(*block) for block in _blocks(pulses)])
+            finished = self._redesign(pulses.azimuth_step)
+        return joined(finished, *[self._block(*block) for block in _blocks(pulses)])
 
     def finish(self) -> npt.NDArray[np.void]:
         """End the stream of pulses; bursts that have not ended are dropped.
@@ -148,8 +147,22 @@ class ExtractionChain:
         self._health.count("plots out", len(plots))
         return plots
 
+    def _redesign(self, step: float) -> npt.NDArray[np.void]:
+        """Take another rotation; bursts under way go on unless the detector itself becomes another."""
+        plan = design(self._parameters, self._layout[0], step)
+        detector = plan.method.detector(self._layout[0], plan.longest)
+        finished = _NO_PLOTS
+        if detector.rule != self._detector.rule:
+            finished = self.finish()
+            self._detector, self._going = detector, detector.open_bursts()
+            self._meter = PowerMeter(self._normaliser.noise_scale, detector.memory)
+        self._design = plan
+        self._tune()
+        self._health.count("changes of the rotation")
+        return finished
+
     def _tune(self) -> None:
-        """Take over the design; bursts under way go on."""
+        """Take over the design."""
         cells, range_start, range_step = self._layout
         plan = self._design
         self._quantiser = plan.method.quantiser(self._normaliser)
@@ -165,7 +178,7 @@ class ExtractionChain:
     def _oldest(self) -> int:
         starts = (self._going["start"], self._merger.waiting["start"])
         oldest = [int(np.minimum.reduce(start)) for start in starts if len(start)]
-        return min([self._log.next, *oldest]) - _MARGIN
+        return min([self._log.next, *oldest]) - max(self._detector.memory, _MARGIN)
 
 
 def _layout(pulses: Pulses) -> tuple[int, float, float]:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Hashable
 
 import numpy as np
 import numpy.typing as npt
@@ -30,10 +31,13 @@ class BurstDetector(ABC):
     ring then stays silent until the end criterion is met, so that a long clutter edge gives one burst and not many.
 
     Attributes:
+        rule: all that decides where bursts start and end but the limit; detectors of one rule can take each other's
+            place in mid-stream.
         memory: pulses before the start that may belong to the burst.
         longest: limit of a burst's length, in pulses after its start.
     """
 
+    rule: Hashable
     memory: int
     longest: int
 

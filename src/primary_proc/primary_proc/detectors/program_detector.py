@@ -35,7 +35,7 @@ class ProgramDetector(BurstDetector):
         """
         if program.ones + program.zeros <= program.window:
             raise ValueError(f"{program} looks across the end of a burst; step its table instead")
-        self._program = program
+        self.rule = self._program = program
         self.memory = program.window - 1
         self.longest = longest
         self._history = max(program.window, program.zeros) - 1

@@ -28,6 +28,7 @@ class TableDetector(BurstDetector):
         self._following = 2 * automaton.following.reshape(-1).astype(np.intp)
         bounds = np.searchsorted(automaton.output, [Output.BURST, Output.END])
         self._first_burst, self._first_end = (int(2 * bound) for bound in bounds)
+        self.rule = rule
         self.memory = rule.memory
         self.longest = longest
         self._rings = rings

@@ -60,6 +60,7 @@ class WindowDetector(BurstDetector):
         """
         weights = np.asarray(taps, np.float32)
         self._channels, length = weights.shape
+        self.rule = weights.shape, weights.tobytes(), threshold, first_peak
         self.memory = length - 1
         self.longest = longest
         self._threshold = np.float32(threshold)
