@@ -6,10 +6,12 @@ from __future__ import annotations
 from radar_eval.errors import EvaluationError
 from radar_eval.published.alpha_beta import alpha_beta
 from radar_eval.published.azimuth_accuracy import azimuth_accuracies
+from radar_eval.published.cfar_thresholds import cfar_thresholds
 from radar_eval.published.detection_probability import detection_probabilities
 from radar_eval.published.false_tracks import false_tracks
 from radar_eval.published.gates import gate_probabilities
 from radar_eval.published.program_detectors import program_detectors
+from radar_eval.published.required_snr import required_snr
 from radar_eval.published.result import PublishedResult
 
 _BOOK = "S. Z. Kuzmin, Digital Processing of Radar Information (in Russian), Moscow 1967"
@@ -43,6 +45,17 @@ RESULTS = {
             false_tracks,
         ),
         PublishedResult("kuzmin-4-gates", f"{_BOOK}, § 4.7.2", gate_probabilities),
+        PublishedResult(
+            "cfar-thresholds",
+            "P. P. Gandhi, S. A. Kassam, IEEE Trans. AES 24, 1988; H. Rohling, IEEE Trans. AES 19, 1983",
+            cfar_thresholds,
+        ),
+        PublishedResult(
+            "required-snr",
+            "J. I. Marcum 1947, P. Swerling 1954; W. J. Albersheim, Proc. IEEE 69, 1981; "
+            "D. A. Shnidman, IEEE Trans. AES 38, 2002",
+            required_snr,
+        ),
     )
 }
 
