@@ -16,8 +16,9 @@ from radar_sim.echoes import Echoes
 from radar_sim.radar import Radar
 from radar_sim.random_phase import random_cosines
 from radar_sim.reception import Complex64Array, Float32Array, Reception
+from radar_sim.runs import runs
 
-_ROWS_IN_CACHE = 32
+_PULSES_IN_CACHE = 32
 
 
 class Receiver:
@@ -72,19 +73,21 @@ class Receiver:
         self, power: Float32Array, field: Complex64Array, filled: npt.NDArray[np.bool_]
     ) -> None:
         """|s + n|² = |s|² + |n|² + 2 |s| |n| cos phi: only the phase between signal and noise is needed."""
-        rows = np.flatnonzero(filled)
-        for first in range(0, len(rows), _ROWS_IN_CACHE):
-            part = rows[first : first + _ROWS_IN_CACHE]
-            of_field, noise = field[part], power[part]
-            signal = np.square(of_field.real)
-            signal += np.square(of_field.imag)
-            signal *= np.float32(0.5)
-            beat = np.sqrt(signal * noise)
-            beat *= random_cosines(len(part), self._cells, self._field_phase_rng)
-            beat *= np.float32(2.0)
-            signal += noise
-            signal += beat
-            power[part] = np.maximum(signal, np.float32(0.0))
+        for begin, end in runs(filled):
+            for first in range(begin, end, _PULSES_IN_CACHE):
+                part = slice(first, min(first + _PULSES_IN_CACHE, end))
+                noise = power[part]
+                signal = np.square(field[part].real)
+                signal += np.square(field[part].imag)
+                signal *= np.float32(0.5)
+                beat = signal * noise
+                np.sqrt(beat, out=beat)
+                beat *= random_cosines(len(beat), self._cells, self._field_phase_rng)
+                beat *= np.float32(2.0)
+                noise += signal
+                noise += beat
+                # Rounding must not make a root of less than nothing.
+                np.maximum(noise, np.float32(0.0), out=noise)
 
     def _add_echoes(
         self, power: npt.NDArray[np.float32], index: npt.NDArray[np.int64], echoes: Echoes

@@ -74,16 +74,3 @@ class DistributedClutter(Disturbance):
     @abstractmethod
     def _blocks(self, first: int, pulses: int) -> Iterator[Block]:
         """Find where in these pulses the clutter is, in order of the pulses."""
-
-
-def runs(chosen: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Find stretches of neighbours that are chosen.
-
-    Args:
-        chosen: shape (n,).
-
-    Returns:
-        First index, and the one after the last, of each stretch.
-    """
-    edges = np.flatnonzero(np.diff(chosen.astype(np.int8), prepend=0, append=0))
-    return [(int(begin), int(end)) for begin, end in edges.reshape(-1, 2)]

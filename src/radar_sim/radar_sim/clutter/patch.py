@@ -12,10 +12,11 @@ import numpy as np
 from radar_common.parameters import ParameterError, parameter
 from radar_sim.clutter.amplitude_laws import LAWS
 from radar_sim.clutter.area import Area, AreaSection
-from radar_sim.clutter.distributed import SPECTRA, Block, DistributedClutter, runs
+from radar_sim.clutter.distributed import SPECTRA, Block, DistributedClutter
 from radar_sim.clutter.texture import Grain, Texture
 from radar_sim.disturbance import Disturbance
 from radar_sim.radar import Radar
+from radar_sim.runs import runs
 
 _WEIBULL_SHAPES = (0.3, 2.0)
 

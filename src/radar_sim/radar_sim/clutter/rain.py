@@ -11,9 +11,10 @@ import numpy as np
 
 from radar_common.frames import TWO_PI, polar_from_enu, wrap_pi
 from radar_common.parameters import parameter
-from radar_sim.clutter.distributed import SPECTRA, Block, DistributedClutter, runs
+from radar_sim.clutter.distributed import SPECTRA, Block, DistributedClutter
 from radar_sim.disturbance import DisturbanceSection
 from radar_sim.radar import Radar
+from radar_sim.runs import runs
 
 _REACH = 2.0  # Radii: there it is 48 dB weaker than in its middle.
 

@@ -18,8 +18,10 @@ from radar_sim.random_phase import ComplexNoise
 Float32Array = npt.NDArray[np.float32]
 Complex64Array = npt.NDArray[np.complex64]
 
-_KNOTS_IN_COHERENCE = 3.0
-_REACH = 2.0  # Of the Gaussian's weights, in coherence times: they are 3e-4 there.
+_KNOTS_IN_COHERENCE = 2.5
+_AROUND = np.arange(-1, 3)  # Knots that a pulse between 0 and 1 is interpolated from.
+_REACH = 1.2  # Of the filter's weights, in coherence times.
+_CIRCLE = 256  # Knots; a coherence time of five at most does not meet itself around them.
 
 
 class Speckle(ABC):
@@ -93,10 +95,10 @@ class ExponentialSpeckle(Speckle):
 
 
 class GaussianSpeckle(Speckle):
-    """Correlation exp(-(m / coherence)²): white noise through a Gaussian filter.
+    """Correlation exp(-(m / coherence)²): white noise through a filter.
 
-    The filter works at knots some pulses apart. Between two knots the process is their linear interpolation over its
-    known standard deviation; with three knots in a coherence time that changes the correlation by at most 0.02.
+    The filter works at knots some pulses apart. Between knots the process is the best linear estimate from the four
+    around, over its known standard deviation; that changes the correlation by less than 0.01.
     """
 
     def __init__(self, coherence: float, rng: np.random.Generator) -> None:
@@ -108,16 +110,8 @@ class GaussianSpeckle(Speckle):
         """
         super().__init__(rng)
         self._step = max(1, math.floor(coherence / _KNOTS_IN_COHERENCE))
-        reach = math.ceil(_REACH * coherence / self._step)
-        offset = np.arange(-reach, reach + 1) * self._step / coherence
-        weights = np.exp(-2.0 * np.square(offset))
-        weights /= np.sqrt(np.sum(np.square(weights)))
-        neighbour = float(np.sum(weights[1:] * weights[:-1]))
-        part = np.arange(self._step) / self._step
-        spread = np.sqrt(1.0 - 2.0 * part * (1.0 - part) * (1.0 - neighbour))
-        self._weights = weights.astype(np.float32)
-        self._before = ((1.0 - part) / spread).astype(np.float32)[:, None]
-        self._after = (part / spread).astype(np.float32)[:, None]
+        self._weights = _filter_for(coherence / self._step).astype(np.float32)
+        self._mix = _interpolation(coherence / self._step, self._step).astype(np.float32)
 
     def _restart(self) -> None:
         self._done = 0
@@ -128,19 +122,23 @@ class GaussianSpeckle(Speckle):
     def _continue(self, pulses: int) -> Complex64Array:
         begin, self._done = self._done, self._done + pulses
         first, last = begin // self._step, (self._done - 1) // self._step
-        self._extend(first, last + 1)
-        before = self._knots[: last + 1 - first].view(np.float32)[:, None, :]
-        after = self._knots[1 : last + 2 - first].view(np.float32)[:, None, :]
         if self._step == 1:
-            return before.reshape(pulses, -1).view(np.complex64)
-        signal = before * self._before
-        signal += after * self._after
+            self._extend(first, last)
+            return self._knots.copy()
+        self._extend(first, last + len(_AROUND) - 1)
+        knots = self._knots.view(np.float32)[:, None, :]
+        groups = last + 1 - first
+        signal = knots[:groups] * self._mix[0]
+        share = np.empty_like(signal)
+        for place, weights in enumerate(self._mix[1:], 1):
+            np.multiply(knots[place : place + groups], weights, out=share)
+            signal += share
         skip = begin - first * self._step
         rows = signal.reshape(-1, 2 * self._cells)[skip : skip + pulses]
         return rows.view(np.complex64)
 
     def _extend(self, first: int, last: int) -> None:
-        """Have the knots from first to last, and no older ones."""
+        """Have the knots from first to last, and no others."""
         self._knots = self._knots[first - self._first_knot :]
         self._first_knot = first
         missing = last + 1 - first - len(self._knots)
@@ -152,3 +150,22 @@ class GaussianSpeckle(Speckle):
             filtered += weight * self._white[place : place + missing]
         self._white = self._white[missing:]
         self._knots = np.concatenate([self._knots, filtered])
+
+
+def _filter_for(coherence: float) -> npt.NDArray[np.float64]:
+    """Weights whose correlation with themselves is Gaussian: the transform of the root of its spectrum."""
+    lag = np.minimum(np.arange(_CIRCLE), _CIRCLE - np.arange(_CIRCLE))
+    spectrum = np.fft.fft(np.exp(-np.square(lag / coherence))).real
+    around = np.fft.ifft(np.sqrt(np.maximum(spectrum, 0.0))).real
+    reach = math.ceil(_REACH * coherence) + 1
+    weights = np.concatenate([around[-reach:], around[: reach + 1]])
+    return np.asarray(weights / np.sqrt(np.sum(np.square(weights))))
+
+
+def _interpolation(coherence: float, step: int) -> npt.NDArray[np.float64]:
+    """Weights of the knots around each pulse of a step, shape (knots, step, 1), for unit variance."""
+    among = np.exp(-np.square(np.subtract.outer(_AROUND, _AROUND) / coherence))
+    towards = np.exp(-np.square(np.subtract.outer(_AROUND, np.arange(step) / step) / coherence))
+    weights = np.linalg.solve(among, towards)
+    weights /= np.sqrt(np.einsum("if,ij,jf->f", weights, among, weights))
+    return np.asarray(weights[:, :, None])
