@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 from primary_proc.calculators.burst_shape import pulses_in_burst
 from primary_proc.choices import find_method
@@ -14,6 +15,7 @@ from primary_proc.parameters import ExtractorParameters
 from radar_common.frames import TWO_PI
 
 _WHOLE = 1e-3
+_REMEMBERED = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +93,12 @@ def design(parameters: ExtractorParameters, rings: int, step: float) -> Design:
     return Design(
         step=step,
         requirements=requirements,
-        method=method.settle(requirements),
+        method=_settled(parameters.detector, requirements),
         longest=math.ceil(parameters.longest_burst * requirements.pulses),
     )
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _settled(detector: str, requirements: Requirements) -> SettledMethod:
+    """Set up a detector; a pause or a change back to an earlier rotation must not cost the set-up again."""
+    return find_method(detector).settle(requirements)
