@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.detectors.burst_detector import bursts, in_order
+from primary_proc.detectors.burst_detector import bursts
 
 
 class OpenBursts(NamedTuple):
@@ -64,18 +64,21 @@ class OpenBursts(NamedTuple):
             (table of the bursts to report, in order of end and ring; bursts to follow, in order of ring).
         """
         limit = self.start + longest
-        overflow = ~self.silent & (end > limit)
-        closed = overflow | (ended & ~self.silent)
-        kept = np.flatnonzero(~ended)
-        kept = kept[np.argsort(self.ring[kept], kind="stable")]
-        silent = self.silent | overflow
-        table = bursts(
-            self.ring[closed],
-            self.start[closed],
-            np.minimum(end, limit)[closed],
-            overflow[closed],
-        )
-        return in_order(table), OpenBursts(self.ring[kept], self.start[kept], silent[kept])
+        heard = ~self.silent
+        overflow = heard & (end > limit)
+        closed = (heard & (ended | overflow)).nonzero()[0]
+        kept = (~ended).nonzero()[0]
+        kept = kept[self.ring[kept].argsort(kind="stable")]
+        silent = (self.silent | overflow)[kept]
+        going = OpenBursts(self.ring[kept], self.start[kept], silent)
+        if not len(closed):
+            return bursts(closed, closed, closed, False), going
+        end = np.minimum(end, limit)[closed]
+        ring = self.ring[closed]
+        # In order of end and ring.
+        order = np.lexsort((ring, end))
+        closed = closed[order]
+        return bursts(ring[order], self.start[closed], end[order], overflow[closed]), going
 
     def heard(self) -> npt.NDArray[np.void]:
         """List those that the limit has not ended.

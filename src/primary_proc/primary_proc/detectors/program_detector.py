@@ -39,8 +39,6 @@ class ProgramDetector(BurstDetector):
         self.memory = program.window - 1
         self.longest = longest
         self._history = max(program.window, program.zeros) - 1
-        self._column = np.zeros(rings, np.int64)
-        self._busy = np.zeros(rings, bool)
         self._words = -(-rings // 64)
         self.reset()
 
@@ -59,69 +57,65 @@ class ProgramDetector(BurstDetector):
         Returns:
             Bursts that ended.
         """
-        pulses = len(samples)
-        words = np.concatenate([self._past, samples])
-        self._past = words[pulses:]
-        pulse, ring = self._detections(words, pulses)
+        pulses, now = len(samples), self._history
+        # The pulses before, these pulses and where the pattern is met in them: one array, so that rings are picked once.
+        words = np.empty((now + 2 * pulses, self._words), np.uint64)
+        met = words[now + pulses :]
+        words[:now] = self._past
+        words[now : now + pulses] = samples
+        self._past = words[pulses : now + pulses].copy()
+        self._meet(words, met)
+        busy = np.unpackbits(np.bitwise_or.reduce(met, axis=0).view(np.uint8))
         before = self._open
-        self._busy[ring] = self._busy[before.ring] = True
-        rings = np.flatnonzero(self._busy)
+        busy[before.ring] = 1
+        rings = busy.nonzero()[0]
         if not len(rings):
             return bursts(rings, rings, rings, False)
-        self._busy[rings] = False
-        self._column[rings] = np.arange(len(rings))
-        end = self._next_ends(words, rings, pulses)
 
+        bits = unpack_cells(words, rings).T
+        end = self._next_ends(bits, pulses)
+        detected = bits[:, now + pulses :]
+        open_column = rings.searchsorted(before.ring)
+        detected[open_column, 0] = 1
         # Detections of a ring that run into the same end are one burst, begun by the first of them.
-        column, open_column = self._column[ring], self._column[before.ring]
-        stop, open_stop = end[pulse, column], end[0, open_column]
-        going_on = np.full(len(rings), -1)
-        going_on[open_column] = open_stop
-        begins = going_on[column] != stop
-        begins[1:] &= (column[1:] != column[:-1]) | (stop[1:] != stop[:-1])
-        stops = np.concatenate([open_stop, stop[begins]])
-        after = before.joined(ring[begins], first + pulse[begins])
-        closed, self._open = after.close(
-            first + stops.astype(np.int64), stops < pulses, self.longest
-        )
+        column, pulse = detected.nonzero()
+        stop = end[column, pulse].astype(np.int64)
+        which = column * (pulses + 1) + stop
+        begins = np.ones(len(which), bool)
+        np.not_equal(which[1:], which[:-1], out=begins[1:])
+        begun = begins.nonzero()[0]
+        column, stop = column[begun], stop[begun]
+        start, silent = first + pulse[begun], np.zeros(len(begun), bool)
+        place = column.searchsorted(open_column)
+        start[place], silent[place] = before.start, before.silent
+        going = OpenBursts(rings[column], start, silent)
+        closed, self._open = going.close(first + stop, stop < pulses, self.longest)
         return closed
 
     def open_bursts(self) -> npt.NDArray[np.void]:
         """List the bursts that have not ended."""
         return self._open.heard()
 
-    def _detections(
-        self, words: npt.NDArray[np.uint64], pulses: int
-    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-        """Pulse and ring of every position where the pattern is met, in order of ring and pulse."""
-        now = self._history
-        window, late = self._program.window, self._program.late
-        rows = [words[now - back : now - back + pulses] for back in range(window)]
-        met = rows.pop(window - 1 if late else 0)
+    def _meet(self, words: npt.NDArray[np.uint64], met: npt.NDArray[np.uint64]) -> None:
+        """Find where the pattern is met in the last pulses, of whose bits and those before them the words begin."""
+        now, pulses = self._history, len(met)
+        rows = [words[now - back : now - back + pulses] for back in range(self._program.window)]
+        certain = rows.pop(self._program.window - 1 if self._program.late else 0)
+        others = self._program.ones - 1
         # enough[n]: the other positions, as far as looked at, hold n ones or more.
         enough: dict[int, npt.NDArray[np.uint64]] = {}
         for looked, row in enumerate(rows, start=1):
-            for count in range(min(looked, self._program.ones - 1), 0, -1):
+            fewest = max(others - (len(rows) - looked), 1)
+            for count in range(min(looked, others), fewest - 1, -1):
                 more = enough[count - 1] & row if count > 1 else row
                 enough[count] = enough[count] | more if count in enough else more
-        if self._program.ones > 1:
-            met = met & enough[self._program.ones - 1]
-        words_met = met.reshape(-1)
-        place = np.flatnonzero(words_met)
-        bit = np.flatnonzero(np.unpackbits(words_met[place].view(np.uint8)))
-        pulse, word = np.divmod(place[bit >> 6], self._words)
-        ring = word * 64 + (bit & 63)
-        order = np.argsort(ring, kind="stable")
-        return pulse[order], ring[order]
+        met[...] = certain & enough[others] if others else certain
 
-    def _next_ends(
-        self, words: npt.NDArray[np.uint64], rings: npt.NDArray[np.int64], pulses: int
-    ) -> npt.NDArray[np.int32]:
-        """For each pulse and ring the first pulse from there on that completes k zeros, or `pulses`."""
-        bits = unpack_cells(words, rings)
-        busy = bits[self._history :]
+    def _next_ends(self, bits: npt.NDArray[np.uint8], pulses: int) -> npt.NDArray[np.int32]:
+        """For each ring and pulse the first pulse from there on that completes k zeros, or `pulses`."""
+        now = self._history
+        busy = bits[:, now : now + pulses]
         for back in range(1, self._program.zeros):
-            busy = busy | bits[self._history - back : self._history - back + pulses]
-        numbers = np.arange(pulses, dtype=np.int32)[:, None]
-        ends = np.where(busy == 0, numbers, np.int32(pulses))
-        return np.minimum.accumulate(ends[::-1], axis=0)[::-1]
+            busy = busy | bits[:, now - back : now - back + pulses]
+        ends = np.where(busy, np.int32(pulses), np.arange(pulses, dtype=np.int32))
+        return np.minimum.accumulate(ends[:, ::-1], axis=1)[:, ::-1]

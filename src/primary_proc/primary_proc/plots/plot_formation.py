@@ -19,6 +19,7 @@ FloatArray = npt.NDArray[np.float64]
 
 _UNIFORM = 1.0 / np.sqrt(12.0)
 _BEST_RANGE = 0.1
+_MOST_PULSES = np.iinfo(np.uint16).max
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +68,8 @@ def form_plots(
     """
     bursts, first = groups.bursts, groups.first
     plots = np.zeros(len(groups), PLOT)
-    plot = np.repeat(np.arange(len(groups)), np.diff(first, append=len(bursts)))
+    stop = np.concatenate([first[1:], [len(bursts)]])
+    plot = np.repeat(np.arange(len(groups)), stop - first)
     centres = estimator.estimate(bursts, envelopes)
 
     weight = 1.0 / centres.std**2
@@ -79,7 +81,7 @@ def form_plots(
     weighted = np.add.reduceat(amplitude * bursts["ring"], first)
     ring = weighted / np.add.reduceat(amplitude, first) + 0.5
 
-    strongest = np.lexsort((amplitude, plot))[np.append(first[1:], len(bursts)) - 1]
+    strongest = np.lexsort((amplitude, plot))[stop - 1]
     nearest, farthest = (f.reduceat(bursts["ring"], first) for f in (np.minimum, np.maximum))
     rings = farthest - nearest + 1
     extended = (rings > target_rings) | np.logical_or.reduceat(bursts["overflow"], first)
@@ -96,7 +98,7 @@ def form_plots(
     plots["amplitude"] = amplitude[strongest]
     plots["snr_db"] = 20.0 * np.log10(amplitude[strongest])
     lengths = bursts["end"] - bursts["start"] + 1
-    plots["pulse_count"] = np.minimum(lengths[strongest], np.iinfo(np.uint16).max)
+    plots["pulse_count"] = np.minimum(lengths[strongest], _MOST_PULSES)
     plots["quality"] = np.where(extended, 0.0, quality[strongest])
     plots["radial_speed"] = plots["radial_speed_std"] = np.nan
     return plots

@@ -17,7 +17,8 @@ from scipy.sparse.csgraph import connected_components
 from primary_proc.detectors.burst_detector import BURST, joined
 
 _LONGEST_CHAIN = 2
-_NO_PARTS = np.zeros(0, np.int64)
+_NO_PLOTS = np.zeros(0, np.int64)
+_END_OF_TIME = 1 << 62
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,21 +75,28 @@ class RingMerger:
             Complete groups.
         """
         if not len(closed) and not len(self.waiting):
-            return _groups(self.waiting, _NO_PARTS)
+            return Groups(self.waiting, _NO_PLOTS)
         bursts = joined(self.waiting, closed, going)
-        is_open = np.arange(len(bursts)) >= len(bursts) - len(going)
-        order = np.lexsort((bursts["start"], bursts["ring"]))
-        bursts, is_open = bursts[order], is_open[order]
+        is_open = np.zeros(len(bursts), bool)
+        is_open[len(bursts) - len(going) :] = True
         end = np.where(is_open, now, bursts["end"])
-        part = _connected(bursts["ring"], bursts["start"], end, self.gap)
-        parts = int(part.max()) + 1
-        begin = np.full(parts, now)
-        np.minimum.at(begin, part, bursts["start"])
-        grows = np.bincount(part, is_open | (end + self.gap > now), parts) > 0
-        grows &= now - begin <= _LONGEST_CHAIN * self.longest
-        self.waiting = bursts[grows[part] & ~is_open]
-        done = ~grows[part] & ~is_open
-        return _groups(bursts[done], part[done])
+        order = np.lexsort((bursts["start"], bursts["ring"]))
+        part = _connected(bursts["ring"][order], bursts["start"][order], end[order], self.gap)
+        by_part = part.argsort(kind="stable")
+        part, order = part[by_part], order[by_part]
+        bursts, is_open, end = bursts[order], is_open[order], end[order]
+
+        begins = np.ones(len(part), bool)
+        np.not_equal(part[1:], part[:-1], out=begins[1:])
+        first = begins.nonzero()[0]
+        grows = np.logical_or.reduceat(is_open | (end > now - self.gap), first)
+        grows &= np.minimum.reduceat(bursts["start"], first) >= now - _LONGEST_CHAIN * self.longest
+        growing = grows[np.add.accumulate(begins, dtype=np.int64) - 1]
+        self.waiting = bursts[growing & ~is_open]
+        done = ~(growing | is_open)
+        sizes = np.add.reduceat(done, first, dtype=np.int64)
+        sizes = sizes[sizes > 0]
+        return Groups(bursts[done], np.add.accumulate(sizes) - sizes)
 
     def finish(self) -> Groups:
         """Give what was collected, complete or not.
@@ -96,18 +104,8 @@ class RingMerger:
         Returns:
             The groups.
         """
-        bursts, self.waiting = self.waiting, self.waiting[:0]
-        if not len(bursts):
-            return _groups(bursts, _NO_PARTS)
-        part = _connected(bursts["ring"], bursts["start"], bursts["end"], self.gap)
-        return _groups(bursts, part)
-
-
-def _groups(bursts: npt.NDArray[np.void], part: npt.NDArray[np.integer]) -> Groups:
-    order = np.argsort(part, kind="stable")
-    sizes = np.bincount(part)
-    sizes = sizes[sizes > 0]
-    return Groups(bursts[order], np.cumsum(sizes) - sizes)
+        none = self.waiting[:0]
+        return self.add(none, none, _END_OF_TIME)
 
 
 def _connected(
@@ -122,15 +120,14 @@ def _connected(
     from the first that ends at its start or later, to the last that starts at its end or earlier, the gap allowed for.
     """
     index = np.arange(len(ring))
-    origin = int(start.min()) - gap
-    span = int(end.max()) - origin + gap + 1
-    starts = ring * np.int64(span) + (start - origin)
-    ends = ring * np.int64(span) + (end - origin)
-    first = np.searchsorted(ends, starts + (span - gap), side="left")
-    stop = np.searchsorted(starts, ends + (span + gap), side="right")
-    count = np.maximum(stop - first, 0)
+    origin = int(np.minimum.reduce(start)) - gap
+    span = int(np.maximum.reduce(end)) - origin + gap + 1
+    row = ring * np.int64(span) - origin
+    starts, ends = row + start, row + end
+    first = ends.searchsorted(starts + (span - gap), side="left")
+    count = np.maximum(starts.searchsorted(ends + (span + gap), side="right") - first, 0)
     follows = index[:-1][starts[1:] <= ends[:-1] + gap]
-    if not count.any() and not len(follows):
+    if not np.add.reduce(count) and not len(follows):
         return index
     one = np.concatenate([np.repeat(index, count), follows])
     run = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count - first, count)

@@ -57,7 +57,9 @@ def unpack_cells(
         cells: range cells wanted, shape (n,).
 
     Returns:
-        Zeros and ones, shape (pulses, n).
+        Zeros and ones, shape (pulses, n), the pulses of a cell lying together in memory.
     """
-    octets = words.view(np.uint8).reshape(len(words), -1)
-    return (octets[:, cells >> 3] >> (7 - (cells & 7)).astype(np.uint8)) & np.uint8(1)
+    octets = words.view(np.uint8).reshape(len(words), -1).T[cells >> 3]
+    octets >>= (7 - (cells & 7)).astype(np.uint8)[:, None]
+    octets &= np.uint8(1)
+    return octets.T

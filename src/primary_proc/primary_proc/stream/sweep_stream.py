@@ -158,26 +158,29 @@ class SweepStream:
         if self._last is not None and self._last.layout != rows.dtype:
             self._health.drop("stream broken by other range cells")
             self._last = None
-        last = self._last or _pulse(rows, time, 0)
         azimuth = rows["azimuth"].astype(np.float64)
+        start, step = rows["range_start"], rows["range_step"]
+        last = self._last or _Pulse(rows.dtype, azimuth[0], time[0], start[0], step[0])
         turn = _turns(np.concatenate([[last.azimuth], azimuth]))
         pause = time - np.concatenate([[last.time], time[:-1]])
-        breaks = self._jumps(turn, pause) | self._other_cells(rows, last)
+        breaks = self._jumps(turn, pause)
+        self._mark_other_cells(breaks, (start, last.range_start), (step, last.range_step))
         breaks[0] |= self._last is None
-        inner = np.flatnonzero(breaks[1:]) + 1
+        inner = breaks[1:].nonzero()[0] + 1
         if len(inner) > _UNEVEN * len(rows):
             return self._lose("pulses whose azimuth or time advances unevenly", time)
         if not self._follow(turn[~breaks]):
             return self._lose("pulses while the antenna stands still or turns back", time)
-        self._last = _pulse(rows, time, -1)
+        self._last = _Pulse(rows.dtype, azimuth[-1], time[-1], start[-1], step[-1])
+        video = self._envelope(rows["video"])
         return [
             Pulses(
                 fresh=bool(breaks[begin]),
-                video=self._envelope(rows["video"][begin:end]),
+                video=video[begin:end],
                 azimuth=azimuth[begin:end],
                 time=time[begin:end],
-                range_start=float(rows["range_start"][begin]),
-                range_step=float(rows["range_step"][begin]),
+                range_start=float(start[begin]),
+                range_step=float(step[begin]),
                 azimuth_step=self._step,
             )
             for begin, end in pairwise([0, *inner, len(rows)])
@@ -208,21 +211,21 @@ class SweepStream:
         )
         return jumped
 
-    def _other_cells(self, rows: npt.NDArray[np.void], last: _Pulse) -> npt.NDArray[np.bool_]:
-        """Tell at which pulses the range cells are not those of the pulse before."""
-        other = np.zeros(len(rows), bool)
-        for layout, before in (
-            (rows["range_start"], last.range_start),
-            (rows["range_step"], last.range_step),
-        ):
+    def _mark_other_cells(
+        self, breaks: npt.NDArray[np.bool_], *layouts: tuple[FloatArray, float]
+    ) -> None:
+        """Mark the pulses whose range cells are not those of the pulse before: field and value before the pulses."""
+        for layout, before in layouts:
             if np.logical_or.reduce(layout != before):
-                other |= layout != np.concatenate([[before], layout[:-1]])
-        self._health.drop("stream broken by other range cells", int(np.count_nonzero(other)))
-        return other
+                other = layout != np.concatenate([[before], layout[:-1]])
+                breaks |= other
+                self._health.drop(
+                    "stream broken by other range cells", int(np.count_nonzero(other))
+                )
 
     def _follow(self, turn: FloatArray) -> bool:
         """Average the azimuth step; tell whether the antenna turns at all."""
-        self._advance += float(turn.sum())
+        self._advance += float(np.add.reduce(turn))
         self._advanced += len(turn)
         if self._advanced < FEWEST_PULSES:
             return True
@@ -234,18 +237,6 @@ class SweepStream:
         self._step += share * (mean - self._step)
         self._advance, self._advanced = 0.0, 0
         return True
-
-
-def _pulse(rows: npt.NDArray[np.void], time: FloatArray, index: int) -> _Pulse:
-    """Note one of some pulses."""
-    row = rows[index]
-    return _Pulse(
-        rows.dtype,
-        float(row["azimuth"]),
-        float(time[index]),
-        float(row["range_start"]),
-        float(row["range_step"]),
-    )
 
 
 def _turns(azimuth: FloatArray) -> FloatArray:
