@@ -7,12 +7,10 @@ Source: Kuzmin 1967, § 3.2.3, Tables 3.6-3.8, figures 3.13-3.14.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import cast
 
 from primary_proc.automata.automaton import Automaton, Output, explore
 from primary_proc.automata.burst_rule import BurstRule
-from primary_proc.automata.minimisation import minimised
 
 _IDLE, _END = "idle", "end"
 _Count = tuple[int, int]
@@ -56,14 +54,9 @@ class Accumulator(BurstRule):
         place = "from the first one to" if self.from_first_one else "between series of"
         return f"accumulator {place} {self.zeros} zeros, threshold {self.threshold}"
 
-    @cached_property
-    def automaton(self) -> Automaton:
-        """Smallest automaton; its states count positions and zeros in a row."""
-        return minimised(self.table)
-
     @property
     def table(self) -> Automaton:
-        """Automaton as printed, Table 3.6: one state for each count and number of zeros, not minimised."""
+        """Automaton as printed, Table 3.6: one state for each count and number of zeros in a row."""
         return explore(_IDLE, self._step, self._says)
 
     @property

@@ -107,7 +107,7 @@ def explore(
         says: output of a state.
 
     Returns:
-        The automaton of all states that can be reached; not minimised.
+        The automaton of all states that can be reached, in the order of their outputs, else as found; not minimised.
 
     Raises:
         ValueError: it has more than `MOST_STATES` states.
@@ -124,24 +124,8 @@ def explore(
         if len(reached) > MOST_STATES:
             raise ValueError(f"the automaton of the detector has more than {MOST_STATES} states")
         following.append([number[new] for new in pair])
-    return in_order_of_output(
-        np.array(following), np.array([says(state) for state in reached], np.int8)
-    )
-
-
-def in_order_of_output(
-    following: npt.NDArray[np.integer], output: npt.NDArray[np.integer]
-) -> Automaton:
-    """Renumber states so that those of one output stand together.
-
-    Args:
-        following: next state on a zero and on a one, shape (states, 2).
-        output: of each state, shape (states,); the initial one says nothing.
-
-    Returns:
-        The same automaton.
-    """
+    output = np.array([says(state) for state in reached], np.int8)
     order = np.argsort(output, kind="stable")
-    number = np.empty_like(order)
-    number[order] = np.arange(len(order))
-    return Automaton(number[following[order]], output[order])
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    return Automaton(place[np.array(following)[order]], output[order])

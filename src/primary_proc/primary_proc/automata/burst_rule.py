@@ -4,17 +4,24 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from functools import lru_cache
 
 from primary_proc.automata.automaton import Automaton
+from primary_proc.automata.minimisation import minimised
 
 
 class BurstRule(ABC):
     """What a binary detector looks for. Rules are values: frozen, hashable, equal by their numbers."""
 
     @property
-    @abstractmethod
     def automaton(self) -> Automaton:
-        """Smallest automaton that follows the rule."""
+        """Smallest automaton that follows the rule; equal rules share it."""
+        return _smallest(self)
+
+    @property
+    @abstractmethod
+    def table(self) -> Automaton:
+        """An automaton that follows the rule, its states as one thinks of them."""
 
     @property
     @abstractmethod
@@ -25,3 +32,8 @@ class BurstRule(ABC):
     @abstractmethod
     def nominal_bias(self) -> float:
         """Steps by which the middle between declaration and end lies late, if ones begin and stop at once."""
+
+
+@lru_cache(maxsize=128)
+def _smallest(rule: BurstRule) -> Automaton:
+    return minimised(rule.table)

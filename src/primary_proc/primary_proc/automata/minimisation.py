@@ -3,21 +3,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+from typing import cast
+
 import numpy as np
 
-from primary_proc.automata.automaton import Automaton, in_order_of_output
+from primary_proc.automata.automaton import Automaton, Output, explore
 
 
 def minimised(automaton: Automaton) -> Automaton:
-    """Merge states that no continuation of the input tells apart.
+    """Leave out what cannot be reached and merge states that no continuation of the input tells apart.
 
     States start in one class for each output; a class is split while its members go on to different classes.
 
     Args:
-        automaton: every state of which can be reached.
+        automaton: any.
 
     Returns:
-        The smallest equivalent automaton, its classes in the order of their first members.
+        The smallest automaton that says the same; equivalent automata give equal ones.
     """
     classes = automaton.output.astype(np.int64)
     count = 0
@@ -25,9 +28,10 @@ def minimised(automaton: Automaton) -> Automaton:
         seen = np.column_stack([classes, classes[automaton.following]])
         classes = np.unique(seen, axis=0, return_inverse=True)[1].reshape(-1)
     member = np.unique(classes, return_index=True)[1]
-    member.sort()
-    number = np.empty(count, np.int64)
-    number[classes[member]] = np.arange(count)
-    return in_order_of_output(
-        number[classes[automaton.following[member]]], automaton.output[member]
-    )
+    following = classes[automaton.following[member]].tolist()
+    said = [Output(value) for value in automaton.output[member]]
+
+    def step(state: Hashable, bit: int) -> Hashable:
+        return cast(int, following[cast(int, state)][bit])
+
+    return explore(int(classes[0]), step, lambda state: said[cast(int, state)])

@@ -8,12 +8,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Self
 
 from primary_proc.automata.automaton import Automaton, Output, explore
 from primary_proc.automata.burst_rule import BurstRule
-from primary_proc.automata.minimisation import minimised
 
 _LATE_BY_NAME = (3, 5, 3)
 _END = "end"
@@ -75,14 +73,14 @@ class Program(BurstRule):
         usual = (ones, window, zeros) == _LATE_BY_NAME
         return cls(ones, window, zeros, usual if match[4] is None else match[4] == "-late")
 
-    @cached_property
-    def automaton(self) -> Automaton:
-        """Smallest automaton of the program.
+    @property
+    def table(self) -> Automaton:
+        """Automaton of the program.
 
         Before the burst a state is the shortest string of past bits, beginning with a one, that can still grow into l
         ones within m positions; in it, the number of zeros in a row. The end state goes on as the initial one does.
         """
-        return minimised(explore("", self._step, self._says))
+        return explore("", self._step, self._says)
 
     @property
     def memory(self) -> int:

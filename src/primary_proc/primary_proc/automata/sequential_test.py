@@ -7,12 +7,10 @@ Source: A. Wald, Sequential Analysis, 1947; Kuzmin 1967, § 1.3. The end: E. S. 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import cast
 
 from primary_proc.automata.automaton import Automaton, Output, explore
 from primary_proc.automata.burst_rule import BurstRule
-from primary_proc.automata.minimisation import minimised
 
 _END = "end"
 _Burst = tuple[str, int]
@@ -53,10 +51,10 @@ class SequentialTest(BurstRule):
         """Name it in words."""
         return f"sequential test +{self.up} -{self.down} between -{self.lower} and {self.upper}"
 
-    @cached_property
-    def automaton(self) -> Automaton:
-        """Smallest automaton; its states are the values of the sum."""
-        return minimised(explore(0, self._step, self._says))
+    @property
+    def table(self) -> Automaton:
+        """Automaton whose states are the values of the sum."""
+        return explore(0, self._step, self._says)
 
     @property
     def memory(self) -> int:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.optimize import brentq
 from scipy.special import lambertw
@@ -43,6 +45,7 @@ def false_start_probability(rule: BurstRule, noise: float, model: str = "exact")
     raise ValueError(f"model {model!r} is neither exact nor kuzmin")
 
 
+@lru_cache(maxsize=256)
 def noise_probability(rule: BurstRule, false_start: float, model: str = "exact") -> float:
     """Probability of a one in noise that gives a false-start probability; inverse of the above.
 

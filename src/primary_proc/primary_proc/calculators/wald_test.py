@@ -16,8 +16,8 @@ from primary_proc.calculators.single_pulse import steady_probability
 
 FloatArray = npt.NDArray[np.float64]
 
-_CELLS = 500
-_HIGHEST_ENVELOPE, _ENVELOPES = 40.0, 40_001
+_CELLS = 300
+_HIGHEST_ENVELOPE, _ENVELOPES = 40.0, 8_001
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,11 +76,11 @@ def sequential_quality(amplitude: float, false_alarm: float, miss: float) -> Seq
     places = np.append((edges[1:] + edges[:-1]) / 2.0, 0.0)
     envelope = np.linspace(0.0, _HIGHEST_ENVELOPE, _ENVELOPES)
     change = np.log(i0e(amplitude * envelope)) + amplitude * envelope - amplitude**2 / 2.0
-    needed = np.interp(edges - places[:, None], change, envelope)
+    steps = edges - places[:, None]
 
     def solve(target: float) -> tuple[float, float]:
         """Probability of the upper bound, and mean length, from zero."""
-        over = steady_probability(needed, target)
+        over = np.interp(steps, change, steady_probability(envelope, target))
         stays = over[:, :-1] - over[:, 1:]
         inner = np.eye(_CELLS) - stays[:-1]
         wins, length = np.linalg.solve(inner, np.stack([over[:-1, -1], np.ones(_CELLS)], 1)).T

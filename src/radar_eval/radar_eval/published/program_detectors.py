@@ -3,11 +3,16 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 
-from primary_proc.automata.book_chain import book_chain
+from primary_proc.automata.book_chain import CAPACITY, book_chain
 from primary_proc.automata.program import Program
-from primary_proc.calculators.false_alarms import false_start_probability, noise_probability
+from primary_proc.calculators.false_alarms import (
+    false_bursts_per_second,
+    false_start_probability,
+    noise_probability,
+)
 from primary_proc.calculators.single_pulse import threshold_for
 from radar_eval.published.result import Row, to_digits
 
@@ -62,7 +67,10 @@ def program_detectors() -> Iterator[Row]:
             label = f"{program}, p_N = {noise:g}: P_fa, automaton itself"
             yield Row(label, None, expected, ours, to_digits(expected))
     yield from _approximations()
+    yield from _closed_form()
     yield from _effect_of_zeros()
+    yield from _filtering()
+    yield from _rates()
     for (program, false_alarm), (expected, threshold) in _INVERSE.items():
         noise = noise_probability(Program.parse(program), false_alarm, "kuzmin")
         at = f"{program} at P_fa = {false_alarm:g}"
@@ -70,6 +78,11 @@ def program_detectors() -> Iterator[Row]:
         printed = 2.0 if (program, false_alarm) == ("3/4-2", 4e-3) else None
         ours = float(threshold_for(noise))
         yield Row(f"{at}: x_0", printed, threshold, ours, 2e-3)
+    for false_alarm, expected, threshold in ((4e-3, 0.0995, 2.148), (2e-4, 0.0336, 2.606)):
+        noise = noise_probability(Program.parse("3/5-3"), false_alarm)
+        at = f"3/5-3 at P_fa = {false_alarm:g}, automaton itself"
+        yield Row(f"{at}: p_N", None, expected, noise, to_digits(expected))
+        yield Row(f"{at}: x_0", None, threshold, float(threshold_for(noise)), 2e-3)
 
 
 def _single_states() -> Iterator[Row]:
@@ -100,6 +113,45 @@ def _approximations() -> Iterator[Row]:
         ours = false_start_probability(Program(3, 4, 2), noise, "kuzmin")
         label = f"3/4-2, p_N = {noise:g}: P_fa by the approximation (3.74)"
         yield Row(label, approximation, expected, ours, to_digits(expected), finding)
+
+
+def _closed_form() -> Iterator[Row]:
+    """(3.69) as printed, and (3.72) with P_0 derived anew, against the chain's limit."""
+    p, q, capacity = 0.1, 0.9, CAPACITY
+    for m, k in itertools.product((2, 3, 4), (2, 3, 4)):
+        bracket = 1.0 + (k - 2) * q**k - (1.0 - q**k) ** (capacity - (k - 2))
+        printed = q**k / (q ** (k - 1) * (1.0 - p ** (m + 1)) + p**m * bracket)
+        ours = float(book_chain(Program(m, m, k)).noise_states(p)[0])
+        yield Row(f"{m}/{m}-{k}, p_N = 0.1: P_0 (3.69)", printed, printed, ours, 1e-14)
+    stages = p**3 + q * p**3 / (1.0 - p * q) + q * p**3
+    counts = 1.0 + (1.0 - (1.0 - q**2) ** capacity) / q**2
+    printed = 1.0 / (((1.0 - p**3) + q**4 * p**2) / (q * (1.0 - p * q)) + stages * counts)
+    ours = float(book_chain(Program(3, 4, 2)).noise_states(p)[0])
+    yield Row("3/4-2, p_N = 0.1: P_0 (3.72)", None, printed, ours, 1e-14)
+
+
+def _filtering() -> Iterator[Row]:
+    for noise in _NOISE:
+        rate = {name: false_start_probability(Program.parse(name), noise) for name in _CHAIN}
+        holds = rate["4/4-2"] < rate["3/3-2"] < rate["3/4-2"]
+        label = f"p_N = {noise:g}: 4/4-2 makes fewer false starts than 3/3-2, 3/4-2 more (1 = yes)"
+        yield Row(label, 1.0, 1.0, float(holds), 0.0)
+
+
+def _rates() -> Iterator[Row]:
+    """(3.75)-(3.76): 400 rings at 500 pulses a second, and at 5000 pulses a turn."""
+    program = Program(3, 4, 2)
+    noise = noise_probability(program, 2e-4)
+    ours = false_bursts_per_second(program, noise, 400, 500.0)
+    yield Row(
+        "3/4-2, P_fa = 0.0002, 400 rings, 500 Hz: false bursts a second (3.76)",
+        None,
+        40.0,
+        ours,
+        1e-6,
+    )
+    ours = 400 * 5000 * false_start_probability(program, noise)
+    yield Row("the same, 5000 positions a turn: false bursts a turn", None, 400.0, ours, 1e-5)
 
 
 def _effect_of_zeros() -> Iterator[Row]:

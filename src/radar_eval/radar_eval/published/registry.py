@@ -4,21 +4,57 @@
 from __future__ import annotations
 
 from radar_eval.errors import EvaluationError
+from radar_eval.published.accumulators import accumulators
 from radar_eval.published.alpha_beta import alpha_beta
+from radar_eval.published.automata import automata
 from radar_eval.published.azimuth_accuracy import azimuth_accuracies
 from radar_eval.published.cfar_thresholds import cfar_thresholds
 from radar_eval.published.detection_probability import detection_probabilities
 from radar_eval.published.false_tracks import false_tracks
 from radar_eval.published.gates import gate_probabilities
+from radar_eval.published.level_quantisation import level_quantisation
 from radar_eval.published.program_detectors import program_detectors
+from radar_eval.published.pulse_in_gate import pulse_in_gate
 from radar_eval.published.required_snr import required_snr
 from radar_eval.published.result import PublishedResult
+from radar_eval.published.sequential import sequential_tests
+from radar_eval.published.time_gate import time_gate
+from radar_eval.published.time_quantisation import time_quantisation
 
 _BOOK = "S. Z. Kuzmin, Digital Processing of Radar Information (in Russian), Moscow 1967"
 
 RESULTS = {
     result.name: result
     for result in (
+        PublishedResult("kuzmin-1-sequential", f"{_BOOK}, § 1.3", sequential_tests),
+        PublishedResult(
+            "kuzmin-2-quantisation",
+            f"{_BOOK}, § 2.2.2 and 2.3.4, (2.7)-(2.17), (2.28)-(2.37), figures 2.8 and 2.9",
+            level_quantisation,
+        ),
+        PublishedResult(
+            "kuzmin-2-sampling",
+            f"{_BOOK}, § 2.2.1 and 2.3, (2.3)-(2.6), (2.18)-(2.27), (2.38)-(2.44)",
+            time_quantisation,
+        ),
+        PublishedResult(
+            "kuzmin-2-time-gate",
+            f"{_BOOK}, § 2.4.2 and 2.4.4, (2.57)-(2.66), figure 2.13",
+            time_gate,
+        ),
+        PublishedResult(
+            "kuzmin-2-pulse-in-gate",
+            f"{_BOOK}, § 2.4.3, (2.56), (2.67)-(2.73), figures 2.15-2.17",
+            pulse_in_gate,
+        ),
+        PublishedResult(
+            "kuzmin-3-automata", f"{_BOOK}, § 3.2.3-3.2.5, Tables 3.6-3.11, (3.46)", automata
+        ),
+        PublishedResult(
+            "kuzmin-3-accumulators",
+            f"{_BOOK}, § 3.3.2-3.3.5, (3.47)-(3.63), (3.77)-(3.87), figure 3.19",
+            accumulators,
+        ),
         PublishedResult(
             "kuzmin-3-program-detectors",
             f"{_BOOK}, § 3.3.3, (3.64)-(3.74), figure 3.24",
@@ -31,7 +67,7 @@ RESULTS = {
         ),
         PublishedResult(
             "kuzmin-3-azimuth-accuracy",
-            f"{_BOOK}, § 3.3.6, (3.92)-(3.103), figures 3.29-3.30",
+            f"{_BOOK}, § 3.3.6, (3.92)-(3.103), figures 3.28-3.30",
             azimuth_accuracies,
         ),
         PublishedResult(
