@@ -16,5 +16,7 @@ def runs(chosen: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
     Returns:
         First index, and the one after the last, of each run.
     """
-    edges = np.flatnonzero(np.diff(chosen.astype(np.int8), prepend=0, append=0))
+    padded = np.zeros(len(chosen) + 2, dtype=bool)
+    padded[1:-1] = chosen
+    edges = np.flatnonzero(padded[1:] != padded[:-1])
     return [(int(begin), int(end)) for begin, end in edges.reshape(-1, 2)]
