@@ -9,12 +9,13 @@ from scipy.optimize import brentq, minimize_scalar
 from scipy.special import i0e, ndtri, xlogy
 
 from primary_proc.calculators.amplitude_laws import pulse_law
+from primary_proc.calculators.gauss_rule import gauss_rule
 from primary_proc.calculators.single_pulse import threshold_for
 
 FloatArray = npt.NDArray[np.float64]
 
 _GRID = 401
-_NODES = 400
+_NODES = 200
 _BITS = 1.0 / np.log(2.0)
 
 
@@ -191,13 +192,11 @@ def whole_information(signal: float, *, law: str = "envelope", prior: float = 0.
         ValueError: there is no law of that name.
     """
     with_signal, noise = pulse_law(law, signal), pulse_law(law, 0.0)
-    low, high = noise.support[0], with_signal.support[1]
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
-    x = low + (high - low) * (node + 1.0) / 2.0
+    x, weight = gauss_rule(noise.support[0], with_signal.support[1], _NODES)
     one, other = with_signal.density(x), noise.density(x)
     both = prior * one + (1.0 - prior) * other
     each = prior * xlogy(one, one) + (1.0 - prior) * xlogy(other, other) - xlogy(both, both)
-    return float(each @ weight * (high - low) / 2.0 * _BITS)
+    return float(np.sum(each * weight) * _BITS)
 
 
 def information_kept(signal: float, *, law: str = "envelope", prior: float = 0.5) -> float:

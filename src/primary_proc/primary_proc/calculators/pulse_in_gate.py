@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ive, ndtr
 
+from primary_proc.calculators.gauss_rule import gauss_rule
 from primary_proc.calculators.noise_excursions import crossing_rate, video_model
 from primary_proc.calculators.single_pulse import steady_probability
 
@@ -115,12 +116,11 @@ def detection_in_gate(
     if form not in ("hazard", "poisson"):
         raise ValueError(f"form {form!r} is neither hazard nor poisson")
     response = video_model(model)
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
-    nu = start + gate * (node + 1.0) / 2.0
+    nu, weight = gauss_rule(start, start + gate, _NODES)
     rate = pulse_crossing_rate(nu, signal, threshold, model)
     if form == "hazard":
         rate = rate / (1.0 - steady_probability(threshold, signal * response.echo(nu)))
-    crossings = float(rate @ weight) * gate / 2.0
+    crossings = float(np.sum(rate * weight))
     first = np.asarray(start if reference is None else reference)
     already = float(steady_probability(threshold, signal * response.echo(first)))
     return float(already + (1.0 - already) * -np.expm1(-crossings))

@@ -8,6 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
+from primary_proc.calculators.gauss_rule import gauss_rule
+
 FloatArray = npt.NDArray[np.float64]
 Correlation = Callable[[FloatArray], FloatArray]
 
@@ -48,9 +50,8 @@ def reconstruction_error(correlation: Correlation, interval: float) -> float:
     Returns:
         Variance.
     """
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
-    lag = interval / 2.0 * (node + 1.0) / 2.0
-    return float(1.0 - np.square(correlation(lag)) @ weight / 2.0)
+    lag, weight = gauss_rule(0.0, interval / 2.0, _NODES)
+    return float(1.0 - 2.0 / interval * np.sum(np.square(correlation(lag)) * weight))
 
 
 def triangular_reconstruction_error(samples_per_correlation: npt.ArrayLike) -> FloatArray:

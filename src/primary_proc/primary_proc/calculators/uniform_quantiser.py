@@ -8,6 +8,7 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 
 from primary_proc.calculators.amplitude_laws import AmplitudeLaw
+from primary_proc.calculators.gauss_rule import gauss_rule
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -80,12 +81,10 @@ def characteristic_function(
     Returns:
         phi(f), complex, same shape.
     """
-    low, high = law.support
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
-    amplitude = low + (high - low) * (node + 1.0) / 2.0
-    mass = law.density(amplitude) * weight * (high - low) / 2.0
+    amplitude, weight = gauss_rule(*law.support, _NODES)
+    mass = law.density(amplitude) * weight
     turns = np.multiply.outer(np.asarray(frequency, dtype=float), amplitude)
-    return np.asarray(np.exp(-2j * np.pi * turns) @ mass)
+    return np.asarray(np.sum(np.exp(-2j * np.pi * turns) * mass, axis=-1))
 
 
 def widest_step(law: AmplitudeLaw, negligible: float) -> float:
