@@ -13,7 +13,7 @@ from primary_proc.calculators.target_models import TARGETS
 
 FloatArray = npt.NDArray[np.float64]
 
-_LEAST = 1e-12
+_LEAST = 1e-16
 
 
 def binary_weights(noise: float, amplitude: npt.ArrayLike, target: str = "steady") -> FloatArray:
@@ -89,7 +89,9 @@ def level_weights(
     """
     signal = level_probabilities(thresholds, amplitude, target)
     noise = level_probabilities(thresholds, 0.0)
-    return np.log(np.maximum(signal, _LEAST**2)) - np.log(noise)
+    weights = np.log(np.maximum(signal, _LEAST)) - np.log(noise)
+    # The ratio of the densities rises with the envelope; where a level is too unlikely for floats, it stays.
+    return np.asarray(np.maximum.accumulate(weights, axis=-1))
 
 
 def weight_bits(error: float) -> int:

@@ -8,6 +8,7 @@ from radar_eval.published.accumulators import accumulators
 from radar_eval.published.alpha_beta import alpha_beta
 from radar_eval.published.automata import automata
 from radar_eval.published.azimuth_accuracy import azimuth_accuracies
+from radar_eval.published.burst_detection import burst_detection
 from radar_eval.published.cfar_thresholds import cfar_thresholds
 from radar_eval.published.detection_probability import detection_probabilities
 from radar_eval.published.false_tracks import false_tracks
@@ -20,12 +21,18 @@ from radar_eval.published.result import PublishedResult
 from radar_eval.published.sequential import sequential_tests
 from radar_eval.published.time_gate import time_gate
 from radar_eval.published.time_quantisation import time_quantisation
+from radar_eval.published.weighted_detection import weighted_detection
 
 _BOOK = "S. Z. Kuzmin, Digital Processing of Radar Information (in Russian), Moscow 1967"
 
 RESULTS = {
     result.name: result
     for result in (
+        PublishedResult(
+            "kuzmin-1-detection",
+            f"{_BOOK}, § 1.3, (1.34), (1.39), (1.45)-(1.51)",
+            burst_detection,
+        ),
         PublishedResult("kuzmin-1-sequential", f"{_BOOK}, § 1.3", sequential_tests),
         PublishedResult(
             "kuzmin-2-quantisation",
@@ -46,6 +53,11 @@ RESULTS = {
             "kuzmin-2-pulse-in-gate",
             f"{_BOOK}, § 2.4.3, (2.56), (2.67)-(2.73), figures 2.15-2.17",
             pulse_in_gate,
+        ),
+        PublishedResult(
+            "kuzmin-3-weighted",
+            f"{_BOOK}, § 3.1, (3.7)-(3.17), figures 3.3 and 3.4",
+            weighted_detection,
         ),
         PublishedResult(
             "kuzmin-3-automata", f"{_BOOK}, § 3.2.3-3.2.5, Tables 3.6-3.11, (3.46)", automata
