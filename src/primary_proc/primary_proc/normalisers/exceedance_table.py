@@ -3,34 +3,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import numpy.typing as npt
 
-LARGEST_MULTIPLIER = 1e9
+from primary_proc.calculators.cfar_laws import LevelLaw
 
-_NODES = 1 << 14
+LARGEST_RATIO = 1e9
+"""Larger ratios, in units of the mean noise power for each reference cell, are taken for this one."""
+
+_NODES = 1 << 12
 
 
 class ExceedanceTable:
-    """Linear interpolation over the logarithm of the ratio, good to 2e-4 of the value."""
+    """Linear interpolation over the logarithm of the ratio, good to 2e-5 of the value.
 
-    def __init__(
-        self, log_exceedance: Callable[[npt.ArrayLike], npt.NDArray], scale: float
-    ) -> None:
+    A gamma law would give a straight line over ln(1 + a T), T being the multiplier of the level and a the level's
+    variance over its mean; the others are nearly straight, and exactly so for small T.
+    """
+
+    def __init__(self, law: LevelLaw, multiplier: float) -> None:
         """Tabulate a law.
 
         Args:
-            log_exceedance: of a multiplier of the noise level.
-            scale: multiplier of a ratio of one.
+            law: of the noise level.
+            multiplier: of the level, for a ratio of one.
         """
-        self._scale = np.float32(scale)
-        last = np.log1p(LARGEST_MULTIPLIER)
+        level, weight = law.quadrature()
+        bend = float(np.square(level - law.mean) @ weight / law.mean)
+        self._scale = np.float32(multiplier * bend)
+        last = np.log1p(LARGEST_RATIO)
         self._density = np.float32((_NODES - 1) / last)
-        value = -log_exceedance(np.expm1(np.linspace(0.0, last, _NODES)))
-        # One node more, level with the last: the largest ratio is found there.
-        self._value = np.append(value, value[-1]).astype(np.float32)
+        value = -law.log_exceedance(np.expm1(np.linspace(0.0, last, _NODES)) / bend)
+        value[0] = 0.0
+        # Two nodes more, level with the last: rounding may put the largest ratio a little past it.
+        self._value = np.pad(value, (0, 2), "edge").astype(np.float32)
         self._slope = np.append(np.diff(self._value), np.float32(0.0))
 
     def power(self, ratios: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
@@ -42,10 +48,11 @@ class ExceedanceTable:
         Returns:
             Same shape.
         """
-        place = ratios * self._scale
-        # Written so that NaN becomes zero.
-        np.fmax(place, np.float32(0.0), out=place)
-        np.minimum(place, np.float32(LARGEST_MULTIPLIER), out=place)
+        with np.errstate(invalid="ignore", over="ignore"):
+            place = ratios * self._scale
+            # Of a number and NaN it takes the number.
+            np.fmax(place, np.float32(0.0), out=place)
+        np.minimum(place, np.float32(LARGEST_RATIO), out=place)
         np.log1p(place, out=place)
         place *= self._density
         node = place.astype(np.int32)

@@ -79,4 +79,4 @@ class WindowNormaliser(Normaliser):
 
     @cached_property
     def _table(self) -> ExceedanceTable:
-        return ExceedanceTable(self._law.log_exceedance, self._summed)
+        return ExceedanceTable(self._law, self._summed)
