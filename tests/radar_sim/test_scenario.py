@@ -92,7 +92,9 @@ def test_a_faulty_scenario_is_refused_with_file_key_and_reason(text, key, reason
 
 
 def test_an_unknown_name_is_refused_with_the_names_known():
-    with pytest.raises(ScenarioError, match=r"nowhere: neither one of airport, coast, .*, tiny nor"):
+    with pytest.raises(
+        ScenarioError, match=r"nowhere: neither one of airport, coast, .*, tiny nor"
+    ):
         load_scenario("nowhere")
 
 

@@ -21,6 +21,7 @@ Complex64Array = npt.NDArray[np.complex64]
 _KNOTS_IN_COHERENCE = 2.5
 _AROUND = np.arange(-1, 3)  # Knots that a pulse between 0 and 1 is interpolated from.
 _REACH = 1.2  # Of the filter's weights, in coherence times.
+_PULSES_IN_CACHE = 16
 _CIRCLE = 256  # Knots; a coherence time of five at most does not meet itself around them.
 
 
@@ -126,16 +127,24 @@ class GaussianSpeckle(Speckle):
             self._extend(first, last)
             return self._knots.copy()
         self._extend(first, last + len(_AROUND) - 1)
-        knots = self._knots.view(np.float32)[:, None, :]
-        groups = last + 1 - first
-        signal = knots[:groups] * self._mix[0]
-        share = np.empty_like(signal)
-        for place, weights in enumerate(self._mix[1:], 1):
-            np.multiply(knots[place : place + groups], weights, out=share)
-            signal += share
         skip = begin - first * self._step
-        rows = signal.reshape(-1, 2 * self._cells)[skip : skip + pulses]
+        rows = self._between(last + 1 - first)[skip : skip + pulses]
         return rows.view(np.complex64)
+
+    def _between(self, groups: int) -> Float32Array:
+        """Pulses from the first knot on, quadratures beside each other, shape (groups * step, 2 * cells)."""
+        knots = self._knots.view(np.float32)[:, None, :]
+        signal = np.empty((groups, self._step, 2 * self._cells), np.float32)
+        at_once = max(1, _PULSES_IN_CACHE // self._step)
+        share = np.empty_like(signal[:at_once])
+        for begin in range(0, groups, at_once):
+            end = min(begin + at_once, groups)
+            part, other = signal[begin:end], share[: end - begin]
+            np.multiply(knots[begin:end], self._mix[0], out=part)
+            for place, weights in enumerate(self._mix[1:], 1):
+                np.multiply(knots[begin + place : end + place], weights, out=other)
+                part += other
+        return signal.reshape(-1, 2 * self._cells)
 
     def _extend(self, first: int, last: int) -> None:
         """Have the knots from first to last, and no others."""
