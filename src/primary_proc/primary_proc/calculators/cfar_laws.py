@@ -18,8 +18,9 @@ from scipy.special import gammaln
 
 FloatArray = npt.NDArray[np.float64]
 
-_STEP = 1.0 / 32.0
-_LEVELS = np.exp(np.arange(-45.0, 7.0, _STEP))
+_LOG_LEVELS = (-45.0, 7.0)
+_STEPS = tuple(2.0**-power for power in range(5, 13))
+_CONVERGED = 1e-8
 _NEGLIGIBLE = 1e-18
 
 
@@ -95,14 +96,21 @@ class EstimatedLevel(LevelLaw):
         """
 
     def quadrature(self) -> tuple[FloatArray, FloatArray]:
-        """Equal steps of the logarithm, exact to rounding for densities as smooth as these; see `LevelLaw.quadrature`.
+        """Equal steps of the logarithm, exact to rounding once they are shorter than the density is wide.
+
+        See `LevelLaw.quadrature`.
 
         Returns:
             Levels and weights, both of shape (nodes,).
         """
-        weight = self.density(_LEVELS) * _LEVELS * _STEP
+        for step in _STEPS:
+            level = np.exp(np.arange(*_LOG_LEVELS, step))
+            weight = self.density(level) * level * step
+            total = weight.sum()
+            if abs(total - 1.0) < _CONVERGED:
+                break
         kept = weight > _NEGLIGIBLE
-        return _LEVELS[kept], weight[kept]
+        return level[kept], weight[kept] / total
 
 
 @dataclass(frozen=True, slots=True)

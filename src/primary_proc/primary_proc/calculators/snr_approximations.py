@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Formulas for the signal-to-noise ratio that n integrated pulses need, for the back of an envelope.
 
-`integrated_pulses` has the exact values; these are here because specifications and textbooks use them.
+`integrated_pulses` has the exact values; these are here because specifications and textbooks use them. Between a P_d of
+0.3 and 0.9 Albersheim's formula is off by 0.3 dB at most, Shnidman's by 0.2 dB for the steady target and by 0.75 dB for
+the others; below 0.2 Albersheim's fails (4 dB at P_fa = 1e-3, P_d = 0.1, one pulse).
 """
 
 from __future__ import annotations
