@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page of the simulator says what the code does."""
+"""The pages of the simulator say what the code does."""
 
 from __future__ import annotations
 
@@ -8,24 +8,41 @@ import re
 import pytest
 
 from radar_common.parameters import to_markdown
+from radar_sim.clutter.sections import CLUTTER
+from radar_sim.interference.sections import INTERFERENCE
 from radar_sim.radar import Radar
-from radar_sim.scenario import parse_scenario
+from radar_sim.scenario import parse_scenario, scenario_names
 from radar_sim.targets import LegSection, TargetSection
 from radar_sim.traffic import TrafficSection
+
+SECTIONS = [
+    Radar,
+    TargetSection,
+    LegSection,
+    TrafficSection,
+    *CLUTTER.values(),
+    *INTERFERENCE.values(),
+]
 
 
 @pytest.fixture
 def page(repository):
-    return (repository / "docs" / "radar_sim.md").read_text("utf-8")
+    return (repository / "docs" / "scenarios.md").read_text("utf-8")
 
 
-@pytest.mark.parametrize("section", [Radar, TargetSection, LegSection, TrafficSection])
+@pytest.mark.parametrize("section", SECTIONS)
 def test_the_tables_of_keys_are_current(page, section):
     assert to_markdown(section) in page
 
 
-def test_the_example_is_a_scenario(page):
-    (example,) = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
-    scenario = parse_scenario(example)
-    assert len(scenario.targets) == 2
-    assert len(scenario.targets[1].path.legs) == 2
+def test_the_examples_are_scenarios(page):
+    targets, disturbances = map(parse_scenario, re.findall(r"```yaml\n(.*?)```", page, re.DOTALL))
+    assert len(targets.targets) == 2
+    assert len(targets.targets[1].path.legs) == 2
+    assert len(disturbances.disturbances) == 6
+
+
+def test_every_scenario_of_the_package_is_listed(repository):
+    page = (repository / "docs" / "radar_sim.md").read_text("utf-8")
+    for name in scenario_names():
+        assert f"| `{name}` |" in page

@@ -168,9 +168,10 @@ def test_more_sectors_than_pulses_are_refused():
 
 
 def test_parameters_build_the_same_simulator():
-    parameters = SimulatorParameters(scenario="tiny", seed=9, scans=2, sectors=8, sample="uint8")
+    digital = {"sample": "uint8", "video_law": "logarithmic"}
+    parameters = SimulatorParameters(scenario="tiny", seed=9, scans=2, sectors=8, **digital)
     by_name = list(Simulator.from_parameters(parameters))
-    by_hand = run(seed=9, scans=2, sectors=8, sample="uint8")
+    by_hand = run(seed=9, scans=2, sectors=8, **digital)
     assert [s.sweeps.stamp for s in by_name] == [s.sweeps.stamp for s in by_hand]
     for one, other in zip(by_name, by_hand, strict=True):
         assert one.sweeps.rows.tobytes() == other.sweeps.rows.tobytes()
