@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from primary_proc.calculators.burst_shape import burst_shape, pulses_in_burst
+from primary_proc.calculators.single_pulse import steady_probability, threshold_for
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.plot_extractor import PlotExtractor
 from radar_common.health import Health
@@ -122,3 +123,26 @@ def extract():
         return plots[np.lexsort((plots["range"], plots["time_offset"]))], health
 
     return run
+
+
+@pytest.fixture
+def ones_of_a_burst():
+    """Probability of a one on each pulse of a steady target in a sinc2 beam."""
+
+    def make(noise, amplitude, pulses=11):
+        shape = burst_shape("sinc2", pulses)
+        return steady_probability(threshold_for(noise), np.multiply.outer(amplitude, shape))
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def packed():
+    """Pack bits of shape (pulses, rings) as the binary quantiser does."""
+
+    def pack(bits):
+        wide = np.zeros((len(bits), -(-bits.shape[1] // 64) * 64), bool)
+        wide[:, : bits.shape[1]] = bits
+        return np.packbits(wide.reshape(-1)).view(np.uint64).reshape(len(bits), -1)
+
+    return pack
