@@ -79,8 +79,8 @@ class PlotExtractor:
 
     def _table(self, found: list[npt.NDArray[np.void]]) -> Table:
         """Plots in order of time, their times counted from the sector's stamp."""
-        plots = joined(_NO_PLOTS, *found).copy()
+        plots = joined(_NO_PLOTS, *found)
         if len(plots):
             plots["time_offset"] -= (self._stamp - (self._stream.origin or 0)) / NANOSECONDS
-            plots = plots[np.argsort(plots["time_offset"], kind="stable")]
+            plots = plots[plots["time_offset"].argsort(kind="stable")]
         return Table(self._stamp, plots, self._frame)

@@ -16,7 +16,6 @@ import numpy.typing as npt
 from primary_proc.automata.program import Program
 from primary_proc.detectors.burst_detector import BurstDetector, bursts
 from primary_proc.detectors.open_bursts import OpenBursts
-from primary_proc.quantisers.binary_quantiser import unpack_cells
 
 
 class ProgramDetector(BurstDetector):
@@ -40,6 +39,8 @@ class ProgramDetector(BurstDetector):
         self.longest = longest
         self._history = max(program.window, program.zeros) - 1
         self._words = -(-rings // 64)
+        ring = np.arange(rings)
+        self._octet, self._bit = ring >> 3, np.uint8(128) >> (ring & 7).astype(np.uint8)[:, None]
         self.reset()
 
     def reset(self) -> None:
@@ -58,7 +59,7 @@ class ProgramDetector(BurstDetector):
             Bursts that ended.
         """
         pulses, now = len(samples), self._history
-        # The pulses before, these pulses and where the pattern is met in them: one array, so that rings are picked once.
+        # The pulses before, these pulses, and where the pattern is met: in one array, so that rings are picked once.
         words = np.empty((now + 2 * pulses, self._words), np.uint64)
         met = words[now + pulses :]
         words[:now] = self._past
@@ -72,24 +73,38 @@ class ProgramDetector(BurstDetector):
         if not len(rings):
             return bursts(rings, rings, rings, False)
 
-        bits = unpack_cells(words, rings).T
-        end = self._next_ends(bits, pulses)
+        # What is not zero is a one; there is no need to move each ring's bit to the same place.
+        bits = words.view(np.uint8).T[self._octet[rings]]
+        bits &= self._bit[rings]
         detected = bits[:, now + pulses :]
-        open_column = rings.searchsorted(before.ring)
-        detected[open_column, 0] = 1
-        # Detections of a ring that run into the same end are one burst, begun by the first of them.
+        column = rings.searchsorted(before.ring)
+        detected[column, 0] = 1
+        return self._follow(rings, detected, self._next_ends(bits, pulses), column, first)
+
+    def _follow(
+        self,
+        rings: npt.NDArray[np.int64],
+        detected: npt.NDArray[np.uint8],
+        end: npt.NDArray[np.int32],
+        going: npt.NDArray[np.int64],
+        first: int,
+    ) -> npt.NDArray[np.void]:
+        """Go on with the open bursts, whose rings are marked as detected at the first pulse, and begin others."""
+        pulses = detected.shape[1]
         column, pulse = detected.nonzero()
         stop = end[column, pulse].astype(np.int64)
+        # Detections of a ring that run into the same end are one burst, begun by the first of them.
         which = column * (pulses + 1) + stop
         begins = np.ones(len(which), bool)
         np.not_equal(which[1:], which[:-1], out=begins[1:])
         begun = begins.nonzero()[0]
         column, stop = column[begun], stop[begun]
-        start, silent = first + pulse[begun], np.zeros(len(begun), bool)
-        place = column.searchsorted(open_column)
-        start[place], silent[place] = before.start, before.silent
-        going = OpenBursts(rings[column], start, silent)
-        closed, self._open = going.close(first + stop, stop < pulses, self.longest)
+        start, silent = pulse[begun] + first, np.zeros(len(begun), bool)
+        place = column.searchsorted(going)
+        start[place], silent[place] = self._open.start, self._open.silent
+        closed, self._open = OpenBursts(rings[column], start, silent).close(
+            stop + first, stop < pulses, self.longest
+        )
         return closed
 
     def open_bursts(self) -> npt.NDArray[np.void]:
@@ -109,7 +124,7 @@ class ProgramDetector(BurstDetector):
             for count in range(min(looked, others), fewest - 1, -1):
                 more = enough[count - 1] & row if count > 1 else row
                 enough[count] = enough[count] | more if count in enough else more
-        met[...] = certain & enough[others] if others else certain
+        np.bitwise_and(certain, enough[others] if others else certain, out=met)
 
     def _next_ends(self, bits: npt.NDArray[np.uint8], pulses: int) -> npt.NDArray[np.int32]:
         """For each ring and pulse the first pulse from there on that completes k zeros, or `pulses`."""
