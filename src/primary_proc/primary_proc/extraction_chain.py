@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from primary_proc.choices import ESTIMATORS, NORMALISERS
+from primary_proc.criterion.criterion_control import CriterionControl
 from primary_proc.design import design
 from primary_proc.detectors.burst_detector import joined
 from primary_proc.parameters import ExtractorParameters
@@ -54,6 +55,7 @@ class ExtractionChain:
         self._merger = RingMerger(self._design.longest, self._design.requirements.gap)
         self._log = PulseLog()
         self._history = RatioHistory(self._normaliser)
+        self._criterion = CriterionControl(parameters, cells, health)
         self._begin = 0
         self._going = self._detector.open_bursts()
         self._tune()
@@ -97,6 +99,7 @@ class ExtractionChain:
         self._detector.reset()
         self._going = self._detector.open_bursts()
         self._meter.reset()
+        self._criterion.restart()
         self._begin = self._log.next
         return plots
 
@@ -109,7 +112,7 @@ class ExtractionChain:
         bad = self._normaliser.ratios(video, azimuth, ratios)
         if self._estimator.reach:
             self._history.append(ratios, first, oldest - self._estimator.reach)
-        bits = self._quantiser.quantise(ratios)
+        bits = self._quantiser.quantise(self._criterion.apply(ratios, azimuth))
         closed = self._whole(self._detector.detect(bits, first))
         self._going = self._detector.open_bursts()
         self._meter.measure(closed, self._going, first)
@@ -145,6 +148,8 @@ class ExtractionChain:
             self._parameters.target_rings,
         )
         self._health.count("plots out", len(plots))
+        cell = (plots["range"] - self._grid.range_start) / self._grid.range_step
+        self._criterion.count(cell, plots["azimuth"])
         return plots
 
     def _redesign(self, step: float) -> npt.NDArray[np.void]:
@@ -173,6 +178,7 @@ class ExtractionChain:
         self._grid = Grid(range_start, range_step, plan.step, threshold)
         self._detector.longest = self._merger.longest = plan.longest
         self._merger.gap = plan.requirements.gap
+        self._criterion.tune(plan, self._normaliser)
         self._rates = RateWatch(plan, cells, self._health)
 
     def _oldest(self) -> int:

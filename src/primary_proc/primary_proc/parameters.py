@@ -134,6 +134,21 @@ class ExtractorParameters(Parameters):
         low=1e-3,
         high=10.0,
     )
+    largest_raise_db: float = parameter(
+        20.0,
+        "most by which the detection criterion is raised where clutter makes more plots than noise would; "
+        "0 never raises it",
+        unit="dB",
+        low=0.0,
+        high=40.0,
+    )
+    plots_limit_per_scan: float = parameter(
+        0.0,
+        "plots in one turn, targets among them, that the computer behind can take: the criterion is raised everywhere, "
+        "by largest_raise_db at most, to keep them fewer; 0 for no limit",
+        low=0.0,
+        high=1e6,
+    )
 
     ppi_pixels: int = parameter(
         0,
@@ -152,6 +167,11 @@ class ExtractorParameters(Parameters):
             find_method(self.detector)
         except ValueError as error:
             raise ParameterError(str(error)) from error
+        if 0.0 < self.plots_limit_per_scan < 2.0 * self.false_plots_per_scan:
+            raise ParameterError(
+                f"a plots_limit_per_scan of {self.plots_limit_per_scan:g} leaves targets no room beside "
+                f"{self.false_plots_per_scan:g} false_plots_per_scan; ask for fewer of these"
+            )
         if self.normaliser == "fixed-level" and self.noise_level == 0.0:
             raise ParameterError("normaliser fixed-level needs a noise_level over 0")
         if self.normaliser in RANGE_WINDOWS and self.guard_cells > 2 * self.reference_cells:

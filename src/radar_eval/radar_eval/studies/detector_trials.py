@@ -79,6 +79,8 @@ class TrialRadar:
             "normaliser": "fixed-level",
             "noise_level": _NOISE_LEVEL,
             "merge_gap": 0.0,
+            # Targets as dense as these would be taken for clutter.
+            "largest_raise_db": 0.0,
         }
         return ExtractorParameters().changed(values | others)
 
