@@ -117,7 +117,8 @@ class CriterionControl:
             cell: range cell with its fraction, shape (n,).
             azimuth: rad in [0, 2 pi), shape (n,).
         """
-        self._new.append((cell, azimuth))
+        if self._on:
+            self._new.append((cell, azimuth))
 
     def _runs(self, azimuth: FloatArray) -> list[tuple[int, int, int]]:
         """Sectors of the pulses, with the first pulse in each and the first after it."""
