@@ -92,16 +92,40 @@ def test_other_rings_do_not_wait():
     assert len(merger.finish()) == 0
 
 
-def test_an_endless_chain_is_cut():
-    merger = RingMerger(LONGEST, 0)
-    given_out = 0
-    for step in range(40):
+def chain_of_bursts(merger, steps):
+    """Bursts of two rings in turn, each beginning before the one before it ends; what comes of them, step by step."""
+    for step in range(steps):
         ring, start = step % 2, 20 * step
         closed = table((ring, start, start + 25)) if step else table()
         going = table(((step + 1) % 2, start + 20, -1))
-        given_out += len(merger.add(closed, going, start + 25).bursts)
+        yield merger.add(closed, going, start + 25)
         assert len(merger.waiting) * 20 <= 2 * LONGEST + 40
-    assert given_out > 30
+
+
+def test_an_endless_chain_is_given_out_once():
+    merger = RingMerger(LONGEST, 0)
+    groups = [found for found in chain_of_bursts(merger, 40) if len(found)]
+    assert [len(found) for found in groups] == [1]
+    length = groups[0].bursts["end"].max() - groups[0].bursts["start"].min()
+    assert 2 * LONGEST - 25 <= length <= 2 * LONGEST + 25
+    assert merger.left_out == 1
+
+
+def test_a_ring_is_heard_again_after_an_endless_chain():
+    merger = RingMerger(LONGEST, 3)
+    list(chain_of_bursts(merger, 40))
+    assert len(merger.add(table((0, 800, 810)), table(), 900)) == 0, "the end of the chain"
+    assert merger.left_out == 1
+    assert sets(merger.add(table((0, 890, 903)), table(), 910)) == {frozenset({(0, 890)})}
+    assert merger.left_out == 0
+
+
+def test_other_bursts_are_not_left_out_with_an_endless_chain():
+    merger = RingMerger(LONGEST, 0)
+    list(chain_of_bursts(merger, 20))
+    going = table((0, 400, -1))
+    found = merger.add(table((1, 380, 405), (3, 380, 400)), going, 406)
+    assert sets(found) == {frozenset({(3, 380)})}
 
 
 @pytest.mark.parametrize("gap", [0, 4])

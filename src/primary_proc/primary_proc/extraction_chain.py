@@ -14,6 +14,7 @@ from primary_proc.criterion.criterion_control import CriterionControl
 from primary_proc.design import design
 from primary_proc.detectors.burst_detector import joined
 from primary_proc.parameters import ExtractorParameters
+from primary_proc.plots.close_targets import TargetSeparator
 from primary_proc.plots.plot_formation import Grid, form_plots
 from primary_proc.plots.power_meter import PowerMeter
 from primary_proc.plots.ratio_history import RatioHistory
@@ -110,14 +111,14 @@ class ExtractionChain:
         first = self._log.append(azimuth, time, oldest)
         ratios = self._meter.room(len(video))
         bad = self._normaliser.ratios(video, azimuth, ratios)
-        if self._estimator.reach:
-            self._history.append(ratios, first, oldest - self._estimator.reach)
+        self._history.append(ratios, first, oldest - self._estimator.reach)
         bits = self._quantiser.quantise(self._criterion.apply(ratios, azimuth))
         closed = self._whole(self._detector.detect(bits, first))
         self._going = self._detector.open_bursts()
         self._meter.measure(closed, self._going, first)
         plots = self._plots(self._merger.add(closed, self._going, self._log.next - 1))
 
+        self._health.drop("bursts that prolong an extended echo", self._merger.left_out)
         self._health.drop("samples that are not finite, taken as zero", bad)
         self._health.count("pulses in", len(video))
         self._health.count("bursts cut at their longest", int(closed["overflow"].sum()))
@@ -145,7 +146,7 @@ class ExtractionChain:
             self._history,
             self._log,
             self._grid,
-            self._parameters.target_rings,
+            self._separator,
         )
         self._health.count("plots out", len(plots))
         cell = (plots["range"] - self._grid.range_start) / self._grid.range_step
@@ -176,6 +177,14 @@ class ExtractionChain:
         )
         threshold = -math.log(plan.method.noise_probability)
         self._grid = Grid(range_start, range_step, plan.step, threshold)
+        self._separator = TargetSeparator(
+            plan.requirements.pattern,
+            plan.requirements.pulses,
+            threshold,
+            self._parameters.target_rings,
+            plan.longest,
+            self._parameters.split_valley_db,
+        )
         self._detector.longest = self._merger.longest = plan.longest
         self._merger.gap = plan.requirements.gap
         self._criterion.tune(plan, self._normaliser)

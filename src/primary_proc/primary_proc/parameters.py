@@ -116,6 +116,14 @@ class ExtractorParameters(Parameters):
         low=0.0,
         high=2.0,
     )
+    split_valley_db: float = parameter(
+        3.0,
+        "echoes that nearness has joined make two plots if the signal between them, in range or azimuth, falls this "
+        "far under the weaker one",
+        unit="dB",
+        low=1.0,
+        high=60.0,
+    )
     target_rings: int = parameter(
         6,
         "range cells that a target may fill; plots that fill more have quality 0",

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy.typing as npt
 
 from primary_proc.estimators.azimuth_estimator import AzimuthEstimator
 from primary_proc.estimators.envelopes import Envelopes
+from primary_proc.plots.close_targets import TargetSeparator
 from primary_proc.plots.ring_merge import Groups
 from primary_proc.stream.pulse_log import PulseLog
 from radar_common.frames import enu_from_polar
@@ -38,6 +40,11 @@ class Grid:
     azimuth_step: float
     threshold: float
 
+    @property
+    def reach(self) -> float:
+        """Threshold on the amplitude: how near its limit a neighbouring cell must come to be seen."""
+        return math.sqrt(self.threshold)
+
 
 def form_plots(
     groups: Groups,
@@ -46,13 +53,14 @@ def form_plots(
     envelopes: Envelopes,
     log: PulseLog,
     grid: Grid,
-    target_rings: int,
+    separator: TargetSeparator,
 ) -> npt.NDArray[np.void]:
     """Make plots.
 
     Range is the centroid of the rings weighted by amplitude, azimuth the mean weighted by the inverse variances. What
     is called amplitude, pulse count and quality is that of the strongest burst. A group with a burst cut off by its
-    limit, or with more rings than a target fills, is an extended echo: quality 0, errors as wide as the echo.
+    limit, longer than that limit altogether, or with more rings than a target fills, is an extended echo: quality 0,
+    errors as wide as the echo.
 
     Args:
         groups: bursts, powers filled in, with the plot of each; at least one.
@@ -61,45 +69,48 @@ def form_plots(
         envelopes: the stored signal, for estimators that look again.
         log: azimuth and time of pulses.
         grid: of the cells.
-        target_rings: most rings that a target fills.
+        separator: takes apart targets that were near enough to be one group.
 
     Returns:
         Table of dtype PLOT; `time_offset` holds the time of the log.
     """
-    bursts, first = groups.bursts, groups.first
-    plots = np.zeros(len(groups), PLOT)
+    centres = estimator.estimate(groups.bursts, envelopes)
+    targets = separator.separate(groups, centres, envelopes)
+    bursts, first, centres = targets.groups.bursts, targets.groups.first, targets.centres
     stop = np.concatenate([first[1:], [len(bursts)]])
-    plot = np.repeat(np.arange(len(groups)), stop - first)
-    centres = estimator.estimate(bursts, envelopes)
+    size = stop - first
+    plot = np.repeat(np.arange(len(first)), size)
 
-    weight = 1.0 / centres.std**2
+    weight = 1.0 / np.square(centres.std)
     total = np.add.reduceat(weight, first)
     position = np.add.reduceat(weight * centres.position, first) / total
-    scatter = np.add.reduceat(weight * (centres.position - position[plot]) ** 2, first) / total
-    variance = np.maximum(1.0 / total, scatter)
+    scatter = np.add.reduceat(weight * np.square(centres.position - position[plot]), first) / total
     amplitude = np.sqrt(bursts["power"].astype(float))
-    weighted = np.add.reduceat(amplitude * bursts["ring"], first)
-    ring = weighted / np.add.reduceat(amplitude, first) + 0.5
-
+    in_ring = bursts["ring"]
+    ring = np.add.reduceat(amplitude * in_ring, first) / np.add.reduceat(amplitude, first) + 0.5
+    rings = np.maximum.reduceat(in_ring, first) - np.minimum.reduceat(in_ring, first) + 1
+    # Pieces of one ring's burst look at the same signal; only rings have noise of their own.
+    variance = np.maximum(size / (rings * total), scatter)
     strongest = np.lexsort((amplitude, plot))[stop - 1]
-    nearest, farthest = (f.reduceat(bursts["ring"], first) for f in (np.minimum, np.maximum))
-    rings = farthest - nearest + 1
-    extended = (rings > target_rings) | np.logical_or.reduceat(bursts["overflow"], first)
+    peak = amplitude[strongest]
+    begin = np.minimum.reduceat(bursts["start"], first)
+    extent = np.maximum.reduceat(bursts["end"], first) - begin
+    extended = (rings > separator.target_rings) | (extent > separator.longest)
+    extended |= np.logical_or.reduceat(bursts["overflow"], first)
 
+    plots = np.zeros(len(first), PLOT)
     plots["azimuth"], plots["time_offset"] = log.at(position)
     plots["range"] = grid.range_start + ring * grid.range_step
     plots["x"], plots["y"] = enu_from_polar(plots["range"], plots["azimuth"])
-    plots["azimuth_std"] = grid.azimuth_step * np.sqrt(variance)
-    plots["range_std"] = grid.range_step * np.where(
-        extended,
-        rings * _UNIFORM,
-        _range_error(rings, np.sqrt(grid.threshold) / amplitude[strongest]),
-    )
-    plots["amplitude"] = amplitude[strongest]
-    plots["snr_db"] = 20.0 * np.log10(amplitude[strongest])
-    lengths = bursts["end"] - bursts["start"] + 1
-    plots["pulse_count"] = np.minimum(lengths[strongest], _MOST_PULSES)
-    plots["quality"] = np.where(extended, 0.0, quality[strongest])
+    spread = np.where(extended, extent * _UNIFORM, np.sqrt(variance))
+    plots["azimuth_std"] = grid.azimuth_step * spread
+    error = np.where(extended, rings * _UNIFORM, _range_error(rings, grid.reach / peak))
+    plots["range_std"] = grid.range_step * error
+    plots["amplitude"] = peak
+    plots["snr_db"] = 20.0 * np.log10(peak)
+    length = bursts["end"][strongest] - bursts["start"][strongest] + 1
+    plots["pulse_count"] = np.minimum(length, _MOST_PULSES)
+    plots["quality"] = np.where(extended, 0.0, quality[targets.burst[strongest]])
     plots["radial_speed"] = plots["radial_speed_std"] = np.nan
     return plots
 

@@ -10,6 +10,8 @@ from primary_proc.normalisers.normaliser import Normaliser
 
 FloatArray = npt.NDArray[np.float64]
 
+_ROOM = 4
+
 
 class RatioHistory:
     """Keeps what the open and waiting bursts may still need; an `Envelopes`."""
@@ -21,9 +23,9 @@ class RatioHistory:
             normaliser: that the ratios come from.
         """
         self._normaliser = normaliser
-        cells = len(normaliser.noise_scale)
-        self._ratios = np.zeros((0, cells), np.float32)
-        self._first = 0
+        self._buffer = np.zeros((0, len(normaliser.noise_scale)), np.float32)
+        self._ratios = self._buffer
+        self._begin = self._first = 0
 
     def append(self, ratios: npt.NDArray[np.float32], first: int, keep: int) -> None:
         """Add pulses and forget those that are no longer needed.
@@ -33,11 +35,21 @@ class RatioHistory:
             first: number of the first of them.
             keep: number of the oldest pulse still needed.
         """
-        gone = first - self._first != len(self._ratios)
-        old = len(self._ratios) if gone else max(keep - self._first, 0)
-        kept = self._ratios[old:]
-        self._first = first - len(kept)
-        self._ratios = np.concatenate([kept, ratios])
+        count = len(self._ratios)
+        gone = first - self._first != count
+        old = count if gone else min(max(keep - self._first, 0), count)
+        kept, added = count - old, len(ratios)
+        begin = self._begin + old
+        if begin + kept + added > len(self._buffer):
+            # Room for several messages, so that what is kept is seldom moved.
+            if len(self._buffer) < 2 * (kept + added):
+                shape = (_ROOM * (kept + added), self._buffer.shape[1])
+                self._buffer = np.empty(shape, np.float32)
+            self._buffer[:kept] = self._ratios[old:]
+            begin = 0
+        self._buffer[begin + kept : begin + kept + added] = ratios
+        self._ratios = self._buffer[begin : begin + kept + added]
+        self._begin, self._first = begin, first - kept
 
     def around(
         self, ring: npt.NDArray[np.integer], pulse: npt.NDArray[np.integer], reach: int

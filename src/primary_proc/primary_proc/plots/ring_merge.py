@@ -11,8 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from primary_proc.detectors.burst_detector import BURST, joined
 
@@ -44,12 +42,14 @@ class RingMerger:
     Two bursts of the same or of adjacent rings are connected if no more than a gap lies between the end of one and the
     start of the other: a strong target's burst falls into pieces now and then, and a weak neighbour ring fires late. A
     connected part is complete once none of its bursts is open and the gap after the last has passed. A part that has
-    grown over more than two longest bursts, as along a coast, is cut.
+    grown over more than two longest bursts, as along a coast, is given out as it is; what goes on joining it after that
+    is the same echo and is left out until it ends.
 
     Attributes:
         longest: limit of a burst's length, in pulses.
         gap: pulses.
         waiting: bursts collected, dtype BURST.
+        left_out: bursts that the last call left out.
     """
 
     def __init__(self, longest: int, gap: int) -> None:
@@ -62,6 +62,9 @@ class RingMerger:
         self.longest = longest
         self.gap = gap
         self.waiting = np.zeros(0, BURST)
+        self.left_out = 0
+        # Which of the waiting bursts have been given out and only hold the place of their echo.
+        self._given = np.zeros(0, bool)
 
     def add(self, closed: npt.NDArray[np.void], going: npt.NDArray[np.void], now: int) -> Groups:
         """Take the bursts that ended and give those whose plot is complete.
@@ -74,26 +77,41 @@ class RingMerger:
         Returns:
             Complete groups.
         """
+        self.left_out = 0
         if not len(closed) and not len(self.waiting):
             return Groups(self.waiting, _NO_PLOTS)
         bursts = joined(self.waiting, closed, going)
         is_open = np.zeros(len(bursts), bool)
         is_open[len(bursts) - len(going) :] = True
+        given = np.zeros(len(bursts), bool)
+        given[: len(self._given)] = self._given
         end = np.where(is_open, now, bursts["end"])
         order = np.lexsort((bursts["start"], bursts["ring"]))
         part = _connected(bursts["ring"][order], bursts["start"][order], end[order], self.gap)
         by_part = part.argsort(kind="stable")
         part, order = part[by_part], order[by_part]
-        bursts, is_open, end = bursts[order], is_open[order], end[order]
+        bursts, is_open, given, end = bursts[order], is_open[order], given[order], end[order]
 
         begins = np.ones(len(part), bool)
         np.not_equal(part[1:], part[:-1], out=begins[1:])
         first = begins.nonzero()[0]
-        grows = np.logical_or.reduceat(is_open | (end > now - self.gap), first)
-        grows &= np.minimum.reduceat(bursts["start"], first) >= now - _LONGEST_CHAIN * self.longest
-        growing = grows[np.add.accumulate(begins, dtype=np.int64) - 1]
-        self.waiting = bursts[growing & ~is_open]
-        done = ~(growing | is_open)
+        number = np.add.accumulate(begins, dtype=np.int64) - 1
+        goes_on = np.logical_or.reduceat(is_open | (end > now - self.gap), first)
+        start = bursts["start"]
+        spent = np.logical_or.reduceat(given, first)
+        too_long = np.minimum.reduceat(start, first) < now - _LONGEST_CHAIN * self.longest
+        echo = spent | (goes_on & too_long)
+        waits = (goes_on & ~echo)[number]
+        kept, done = waits & ~is_open, ~(waits | is_open)
+        stays = np.zeros(len(part), bool)
+        if np.logical_or.reduce(echo):
+            # Of an echo that goes on only those bursts stay that something may still join.
+            oldest = np.minimum.reduceat(np.where(is_open, start, now), first)
+            stays = (echo & goes_on)[number] & ~is_open & (end + self.gap >= oldest[number])
+            prolongs = spent[number]
+            self.left_out = int(np.count_nonzero(done & prolongs & ~given))
+            kept, done = kept | stays, done & ~prolongs
+        self.waiting, self._given = bursts[kept], stays[kept]
         sizes = np.add.reduceat(done, first, dtype=np.int64)
         sizes = sizes[sizes > 0]
         return Groups(bursts[done], np.add.accumulate(sizes) - sizes)
@@ -114,7 +132,7 @@ def _connected(
     end: npt.NDArray[np.int64],
     gap: int,
 ) -> npt.NDArray[np.integer]:
-    """Number the connected parts of the graph; bursts in order of ring and start.
+    """Label the connected parts of the graph; bursts in order of ring and start.
 
     Bursts of one ring lie one behind the other, so those of the next ring that are near a burst are a run of the list:
     from the first that ends at its start or later, to the last that starts at its end or earlier, the gap allowed for.
@@ -130,7 +148,26 @@ def _connected(
     if not np.add.reduce(count) and not len(follows):
         return index
     one = np.concatenate([np.repeat(index, count), follows])
-    run = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count - first, count)
-    other = np.concatenate([run, follows + 1])
-    graph = coo_array((np.ones(len(one), np.int8), (one, other)), (len(ring), len(ring)))
-    return connected_components(graph, directed=False)[1]
+    run = np.arange(len(one) - len(follows)) - np.repeat(np.cumsum(count) - count - first, count)
+    return _lowest_labels(one, np.concatenate([run, follows + 1]), index)
+
+
+def _lowest_labels(
+    one: npt.NDArray[np.int64], other: npt.NDArray[np.int64], label: npt.NDArray[np.int64]
+) -> npt.NDArray[np.int64]:
+    """Give each node the lowest number in its connected part, the edges given by their two ends.
+
+    Where an edge joins two parts, the higher label is linked to the lower, until none does. Graphs of a sector are
+    small: a sparse matrix would take ten times as long to build.
+    """
+    while True:
+        low, high = label[one], label[other]
+        differ = low != high
+        if not np.logical_or.reduce(differ):
+            return label
+        low, high = low[differ], high[differ]
+        label = label.copy()
+        np.minimum.at(label, np.maximum(low, high), np.minimum(low, high))
+        linked = label[label]
+        while not np.array_equal(linked, label):
+            label, linked = linked, linked[linked]
