@@ -57,7 +57,7 @@ def test_noise_has_the_correlation_asked_for_and_independent_quadratures(name):
 
 
 def test_noise_has_unit_power_and_the_exceedance_of_its_law():
-    envelope = np.abs(generator("gaussian", 0.0, 0.0).noise(200_000))[:, 0]
+    envelope = np.abs(generator("gaussian", 0.0, 0.0, 0.5).noise(200_000))[:, 0]
     assert np.mean(np.square(envelope)) / 2.0 == pytest.approx(1.0, abs=4.0 / np.sqrt(200_000))
     for threshold in (0.5, 2.0, 3.0):
         wanted = np.exp(-np.square(threshold) / 2.0)
