@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import csr_array, identity
+from scipy.sparse import csc_array, csr_array, identity
 from scipy.sparse.linalg import spsolve
 
 from primary_proc.automata.automaton import Automaton, Output
@@ -19,7 +19,7 @@ FloatArray = npt.NDArray[np.float64]
 
 _REMAINDER = 1e-9
 _LONGEST_TAIL = 2000
-_DENSE = 300
+_DENSE = 40
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,16 +87,22 @@ def noise_state(automaton: Automaton, noise: float) -> FloatArray:
     Returns:
         Probability of each state, shape (states,).
     """
-    # Relative to the initial state: so the smallest probabilities keep their digits.
     size = len(automaton)
+    ahead = automaton.following.T.reshape(-1)
+    behind = np.tile(np.arange(size), 2)
+    chance = np.repeat([noise - 1.0, -noise], size)
+    # I - A less the row and column of the initial state: relative to it the smallest probabilities keep their digits.
+    inner, first = (ahead > 0) & (behind > 0), (ahead > 0) & (behind == 0)
+    place = ahead[inner] - 1, behind[inner] - 1
+    entered = np.zeros(size - 1)
+    np.subtract.at(entered, ahead[first] - 1, chance[first])
     if size <= _DENSE:
-        matrix = np.zeros((size, size))
-        for bit, probability in enumerate((1.0 - noise, noise)):
-            matrix[automaton.following[:, bit], np.arange(size)] += probability
-        others = np.linalg.solve(np.eye(size - 1) - matrix[1:, 1:], matrix[1:, 0])
+        matrix = np.eye(size - 1)
+        np.add.at(matrix, place, chance[inner])
+        others = np.linalg.solve(matrix, entered)
     else:
-        moves = _Moves(automaton.following).matrix(1.0 - noise, noise)
-        others = spsolve((identity(size - 1) - moves[1:, 1:]).tocsc(), moves[1:, [0]].toarray())
+        moves = csc_array((chance[inner], place), (size - 1, size - 1))
+        others = spsolve(moves + identity(size - 1, format="csc"), entered)
     state = np.concatenate([[1.0], others])
     return np.asarray(state / state.sum())
 
