@@ -134,6 +134,15 @@ def test_the_scale_of_the_video_does_not_matter(name, exponent):
 
 
 @pytest.mark.parametrize("name", RANGE_WINDOWS)
+def test_the_sign_of_a_sample_does_not_matter(name):
+    rng = np.random.default_rng(14)
+    video = rng.rayleigh(1.0, (6, 90)).astype(np.float32)
+    video[:, 33] = 1e6
+    signed = video * rng.choice([-1.0, 1.0], video.shape).astype(np.float32)
+    assert np.array_equal(ratios(make(name, 90), signed), ratios(make(name, 90), video))
+
+
+@pytest.mark.parametrize("name", RANGE_WINDOWS)
 def test_silence_is_no_number_and_an_echo_in_it_is_beyond_all_thresholds(name):
     video = np.zeros((2, 60), np.float32)
     video[1, 30] = 1.0

@@ -118,10 +118,10 @@ class AverageLevel(EstimatedLevel):
     """Mean of N cells (Finn and Johnson 1968): P_fa = (1 + T / N)^-N.
 
     Attributes:
-        cells: N.
+        cells: N; a number that is not whole gives the gamma law of as many degrees.
     """
 
-    cells: int
+    cells: float
 
     @property
     def mean(self) -> float:

@@ -1,16 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What it costs that the noise level is estimated and not known."""
+"""What it costs that the noise level is an average and not known."""
 
 from __future__ import annotations
 
-import numpy as np
-from scipy.optimize import brentq
-from scipy.special import gammaincinv
-
-from primary_proc.calculators.single_pulse import steady_probability, threshold_for
-
-_NODES = 64
-_LARGEST_AMPLITUDE = 100.0
+from primary_proc.calculators.cfar_detection import loss_db
+from primary_proc.calculators.cfar_laws import AverageLevel
 
 
 def averaging_loss_db(probability: float, count: float) -> float:
@@ -20,20 +14,9 @@ def averaging_loss_db(probability: float, count: float) -> float:
 
     Args:
         probability: p_N of the threshold.
-        count: reference cells N.
+        count: reference cells N; between whole numbers, the mean of a gamma law.
 
     Returns:
         dB of signal-to-noise ratio.
     """
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
-    total = gammaincinv(count, (node + 1.0) / 2.0)
-    level = np.sqrt(2.0 * np.expm1(-np.log(probability) / count) * total)
-
-    def excess(amplitude: float) -> float:
-        return float(steady_probability(level, amplitude) @ weight) / 2.0 - 0.5
-
-    def ideal(amplitude: float) -> float:
-        return float(steady_probability(threshold_for(probability), amplitude)) - 0.5
-
-    needed, least = (brentq(function, 0.0, _LARGEST_AMPLITUDE) for function in (excess, ideal))
-    return float(20.0 * np.log10(needed / least))
+    return loss_db(AverageLevel(count), probability)

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from primary_proc.calculators.cfar_half_laws import GreatestLevel, SmallestLevel
-from primary_proc.normalisers.normaliser import FloatArray, square_finite
+from primary_proc.normalisers.normaliser import FloatArray, square_in_place
 from primary_proc.normalisers.reference_window import ReferenceWindow, behind, fitting_half
 from primary_proc.normalisers.shift_network import ShiftNetwork
 from primary_proc.normalisers.sliding_windows import window_sum
@@ -52,13 +52,15 @@ class HalfSums(WindowNormaliser):
             How many samples were not finite.
         """
         bad = 0
-        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-            for first in range(0, len(video), self._window.rows):
-                block = video[first : first + self._window.rows]
-                power = self._window.room(len(block))
-                bad += square_finite(block, power)
-                level = self._window.statistic(len(block))
-                np.divide(power, level, out=out[first : first + len(block)])
+        window = self._window
+        with np.errstate(all="ignore"):
+            for first in range(0, len(video), window.rows):
+                block = video[first : first + window.rows]
+                power = window.source(len(block))
+                window.inside(power)[...] = block
+                bad += square_in_place(power)
+                level = window.statistic(len(block))
+                window.divide(power, level, out[first : first + len(block)])
         return bad
 
 

@@ -74,11 +74,16 @@ class ShiftNetwork:
         """Find out what a result needs and where it can lie.
 
         Args:
-            result: wanted.
+            result: wanted, as `combine` gives it of arrays of which one is not moved.
 
         Returns:
             The plan.
+
+        Raises:
+            ValueError: the result is moved itself.
         """
+        if result.shift:
+            raise ValueError(f"the result lies {result.shift} places ahead of its array")
         needed = self._needed(result)
         last_use = {s.node: node for node in needed for s in self._nodes[node - 1][1:]}
         place = {0: 0}
@@ -102,7 +107,7 @@ class ShiftNetwork:
             free += [place[s] for s in ending]
             sources = Signal(place[one.node], one.shift), Signal(place[other.node], other.shift)
             steps.append((operation, *sources, place[node]))
-        return ShiftPlan(steps, buffers, Signal(place[result.node], result.shift))
+        return ShiftPlan(steps, buffers, place[result.node])
 
     def _needed(self, result: Signal) -> list[int]:
         """Nodes that a result rests on, in their order."""
@@ -122,12 +127,12 @@ class ShiftPlan:
     Attributes:
         steps: operation, its two operands (a buffer and a shift each) and the buffer of the result.
         buffers: how many buffers, the source (0) included.
-        result: buffer and shift of the result.
+        result: buffer of the result.
     """
 
     steps: list[tuple[np.ufunc, Signal, Signal, int]]
     buffers: int
-    result: Signal
+    result: int
 
     def bind(self, buffers: list[npt.NDArray], size: int) -> list[Operation]:
         """Set up the operations for buffers.
