@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -21,8 +22,10 @@ from primary_proc.methods.requirements import Requirements
 from primary_proc.methods.sequential_method import SequentialMethod
 from primary_proc.methods.window_methods import WINDOW_METHODS
 from primary_proc.normalisers.cell_averaging import CellAveraging
+from primary_proc.normalisers.clutter_map import ClutterMap
 from primary_proc.normalisers.fixed_level import FixedLevel
 from primary_proc.normalisers.half_sums import GreatestOf, SmallestOf
+from primary_proc.normalisers.map_memory import bins_for
 from primary_proc.normalisers.normaliser import Normaliser
 from primary_proc.normalisers.ordered_statistic import OrderedStatistic
 
@@ -47,6 +50,13 @@ RANGE_WINDOWS: dict[str, Callable[[ExtractorParameters, int], Normaliser]] = {
 
 NORMALISERS: dict[str, Callable[[ExtractorParameters, int], Normaliser]] = {
     **RANGE_WINDOWS,
+    "clutter-map": lambda parameters, cells: ClutterMap(
+        cells,
+        parameters.reference_cells,
+        parameters.guard_cells,
+        parameters.map_weight,
+        bins_for(math.radians(parameters.beamwidth_deg), cells),
+    ),
     "fixed-level": lambda parameters, cells: FixedLevel(cells, parameters.noise_level),
 }
 """Normalisers, each made for a number of range cells."""

@@ -78,6 +78,13 @@ class ExtractorParameters(Parameters):
         low=0.05,
         high=1.0,
     )
+    map_weight: float = parameter(
+        0.05,
+        "clutter-map: share of the latest turn in the map; an echo that stays in one cell disappears after 5 turns "
+        "with 0.05, 3 with 0.1 and 11 with 0.025",
+        low=0.005,
+        high=0.2,
+    )
     noise_level: float = parameter(
         0.0,
         "fixed level: rms of the noise envelope in units of the video; must be given there",
