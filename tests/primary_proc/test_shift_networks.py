@@ -72,7 +72,7 @@ def test_equal_expressions_are_computed_once():
 
 @pytest.mark.parametrize(("half", "rank", "steps", "buffers"), [(16, 24, 76, 12), (16, 32, 5, 3)])
 def test_the_plan_holds_what_the_result_needs(half, rank, steps, buffers):
-    """Of all 92 operations that sort 16 cells and the 17 that select, or of the maximum alone."""
+    """Of the 76 operations that sort 16 cells and 17 that select, or of those of a maximum alone."""
     network = ShiftNetwork()
     before = sorted_window(network, half)
     behind = [signal.ahead(half + 5) for signal in before]
