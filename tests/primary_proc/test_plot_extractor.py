@@ -258,16 +258,6 @@ def test_a_long_clutter_edge_is_one_plot_without_quality(scene, extract, cut):
     assert across["range_std"] == pytest.approx(40 * made.range_step / np.sqrt(12.0))
 
 
-def test_memory_is_that_of_a_sector(scene, cut):
-    made = scene(9, 2 * SCAN, 128, [(p, 60.5, 12.0) for p in range(50, 2000, 70)])
-    extractor = PlotExtractor(ExtractorParameters(beamwidth_deg=3.0), Health())
-    for table in made.sectors(*cut(16, made)):
-        extractor.process(table)
-        chain = extractor._chain
-        assert chain is None or len(chain._log._azimuth) < 200
-        assert chain is None or chain._meter._ratios.shape[0] < 64
-
-
 def test_the_rate_holds_for_each_detector(scene, extract, cut):
     scans = 2
     made = scene(10, scans * SCAN, 256)
