@@ -16,6 +16,9 @@ LARGEST_SUM = 1 << 24
 """Float32 holds every whole number up to here."""
 
 _ROWS = 32
+# Products of one matrix product. A BLAS spreads larger ones over threads, which costs more than it brings here.
+_PRODUCTS = 1 << 18
+_NARROWEST = 32
 _NEVER = np.iinfo(np.int64).max
 _RUN = np.dtype(
     [
@@ -64,7 +67,7 @@ class WindowDetector(BurstDetector):
         self.memory = length - 1
         self.longest = longest
         self._threshold = np.float32(threshold)
-        self._rings = rings
+        self._rings, self._narrow = rings, np.min_scalar_type(rings)
         self._first_peak = first_peak
         self._filter = np.zeros((_ROWS, _ROWS + self.memory, self._channels), np.float32)
         for row in range(_ROWS):
@@ -108,7 +111,10 @@ class WindowDetector(BurstDetector):
             span = count + self.memory
             weights = self._filter[:count, :span].reshape(count, span * self._channels)
             block = flat[row * self._channels : (row + span) * self._channels]
-            np.matmul(weights, block, out=sums[row : row + count])
+            width = max(_PRODUCTS // weights.size, _NARROWEST)
+            for ring in range(0, self._rings, width):
+                part = slice(ring, ring + width)
+                np.matmul(weights, block[:, part], out=sums[row : row + count, part])
         return sums
 
     def _follow(
@@ -116,7 +122,9 @@ class WindowDetector(BurstDetector):
     ) -> npt.NDArray[np.void]:
         """The runs of these pulses, of which there are some; those open before are gone on with."""
         before = self._open
-        ring, row = np.nonzero(over.T)
+        row, ring = np.divmod(np.flatnonzero(over), self._rings)
+        order = np.argsort(ring.astype(self._narrow), kind="stable")
+        row, ring = row[order], ring[order]
         value, pulse = sums[row, ring], first + row
         opens = np.ones(len(ring), bool)
         opens[1:] = (ring[1:] != ring[:-1]) | (row[1:] != row[:-1] + 1)

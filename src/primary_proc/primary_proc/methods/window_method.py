@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -32,7 +32,9 @@ from primary_proc.quantisers.level_quantiser import LevelQuantiser
 from primary_proc.quantisers.quantiser import Quantiser
 
 _FEWEST_PULSES = 4
-_ITERATIONS = 3
+_ITERATIONS = 2
+# Where the search begins; most detectors end near it.
+_USUAL_LAST = 0.9
 _DENSEST = 0.2
 # Of all single thresholds this one tells most about weak signals; the nearest that there is is counted.
 _TELLING = 1.785
@@ -67,7 +69,7 @@ class WindowMethod(DetectionMethod, ABC):
         Returns:
             The method with its thresholds.
         """
-        return SettledWindow(requirements, self.fit(requirements), first_peak=self.first_peak)
+        return _settled(self, requirements)
 
 
 class SettledWindow(SettledMethod):
@@ -75,6 +77,7 @@ class SettledWindow(SettledMethod):
 
     Attributes:
         window: levels, weights and threshold.
+        noise: what bursts of noise are like.
     """
 
     def __init__(self, requirements: Requirements, fit: Fit, *, first_peak: bool = False) -> None:
@@ -96,20 +99,20 @@ class SettledWindow(SettledMethod):
         cells = requirements.rings * requirements.pulses_per_scan
         beside = (requirements.rings - 1) / requirements.rings
         share = requirements.false_plots / cells
-        starts = share
+        starts = share / _USUAL_LAST
         for _ in range(_ITERATIONS):
             self.window = fit(starts)
-            self._noise = noise_bursts(self.window, requirements.gap)
-            room = (2.0 * (self._noise.span + requirements.gap) + 1.0) * beside
+            self.noise = noise_bursts(self.window, requirements.gap)
+            room = (2.0 * (self.noise.span + requirements.gap) + 1.0) * beside
             if share * room > _DENSEST:
                 raise ValueError(
                     f"{requirements.false_plots:g} false plots per scan on {cells:g} cells lie so close that they "
                     f"merge; at most {_DENSEST / room * cells:.3g} can be had"
                 )
             crowds = float(-lambertw(-share * room).real / room) if room else share
-            starts = crowds / self._noise.last
+            starts = crowds / self.noise.last
         self.false_starts = self.window.false_starts
-        crowds = self.false_starts * self._noise.last
+        crowds = self.false_starts * self.noise.last
         self.false_plots = float(cells * crowds * np.exp(-room * crowds))
         self._counted = int(np.abs(self.window.edges - _TELLING).argmin())
         self.noise_probability = float(self.window.level_chances[1 + self._counted])
@@ -160,7 +163,7 @@ class SettledWindow(SettledMethod):
         Returns:
             Shape (n,).
         """
-        return np.interp(chance, self._noise.peak, self._noise.weaker, left=1.0, right=0.0)
+        return np.interp(chance, self.noise.peak, self.noise.weaker, left=1.0, right=0.0)
 
     def quantiser(self, normaliser: Normaliser) -> Quantiser:
         """Make the quantiser, of few levels or of an envelope's fine steps.
@@ -192,3 +195,9 @@ class SettledWindow(SettledMethod):
         return WindowDetector(
             window.taps, window.threshold, rings, longest, first_peak=self._first_peak
         )
+
+
+@lru_cache(maxsize=16)
+def _settled(method: WindowMethod, requirements: Requirements) -> SettledWindow:
+    """A stream that begins anew asks for the same again, and a design is worth half a second."""
+    return SettledWindow(requirements, method.fit(requirements), first_peak=method.first_peak)

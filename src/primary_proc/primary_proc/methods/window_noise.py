@@ -19,7 +19,7 @@ from primary_proc.methods.window import Window
 
 FloatArray = npt.NDArray[np.float64]
 
-_DRAWN, _KEPT = 40_000, 6_000
+_DRAWN, _KEPT = 30_000, 6_000
 _SEED = 1967
 
 

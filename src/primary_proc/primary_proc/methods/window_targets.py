@@ -28,11 +28,11 @@ FloatArray = npt.NDArray[np.float64]
 DETECTION_TRIALS = 10_000
 """Targets behind a detection probability: its standard error is at most 0.005."""
 
-_ACCURACY_TRIALS = 3_000
+_ACCURACY_TRIALS = 2_500
 _FEWEST_FOUND = 100
-_AMPLITUDES = np.geomspace(1.0, 32.0, 26)
+_AMPLITUDES = np.geomspace(1.0, 32.0, 16)
 _PULSE_SHAPE = {"fast": 1.0, "fast-dominant": 2.0}
-_WEAKEST_DB, _STRONGEST_DB = -16, 40
+_WEAKEST_DB, _STRONGEST_DB, _GRID_DB = -15.0, 40.0, 2.0
 _SEED = 1967
 
 
@@ -113,7 +113,7 @@ class TargetTrials:
 
 
 class DetectionCurve:
-    """Detection probability against the signal, tried at whole decibels when it is first asked for."""
+    """Detection probability against the signal, tried at every other decibel when it is first asked for."""
 
     def __init__(self, parts: Parts, pattern: str, pulses: float, target: str) -> None:
         """Begin with nothing tried.
@@ -136,13 +136,13 @@ class DetectionCurve:
         Returns:
             Probability, shape (n,).
         """
-        asked = np.clip(snr_db, _WEAKEST_DB + 1, _STRONGEST_DB - 2)
+        asked = np.clip(snr_db, _WEAKEST_DB, _STRONGEST_DB) / _GRID_DB
         nodes = np.floor(asked)[:, None].astype(int) + np.arange(-1, 3)
         missing = sorted(set(np.unique(nodes).tolist()) - set(self._known))
         trials = TargetTrials(*self._of, DETECTION_TRIALS) if missing else None
         for node in missing:
             sure = any(share == 1.0 for below, share in self._known.items() if below < node)
-            self._known[node] = 1.0 if sure or not trials else trials.found_share(float(node))
+            self._known[node] = 1.0 if sure or not trials else trials.found_share(_GRID_DB * node)
         # Over the signal in dB the quantile of the normal distribution bends least: a cubic through four values.
         least = 0.5 / DETECTION_TRIALS
         known = np.array([self._known[node] for node in nodes.ravel().tolist()])
