@@ -99,7 +99,6 @@ class ExtractionChain:
         plots = self._plots(self._merger.finish())
         self._detector.reset()
         self._going = self._detector.open_bursts()
-        self._meter.reset()
         self._criterion.restart()
         self._begin = self._log.next
         return plots
@@ -109,13 +108,12 @@ class ExtractionChain:
     ) -> npt.NDArray[np.void]:
         oldest = self._oldest()
         first = self._log.append(azimuth, time, oldest)
-        ratios = self._meter.room(len(video))
+        ratios = self._history.room(len(video), oldest - self._estimator.reach)
         bad = self._normaliser.ratios(video, azimuth, ratios)
-        self._history.append(ratios, first, oldest - self._estimator.reach)
         bits = self._quantiser.quantise(self._criterion.apply(ratios, azimuth))
         closed = self._whole(self._detector.detect(bits, first))
         self._going = self._detector.open_bursts()
-        self._meter.measure(closed, self._going, first)
+        self._meter.measure(closed, self._going, first, self._history)
         plots = self._plots(self._merger.add(closed, self._going, self._log.next - 1))
 
         self._health.drop("bursts that prolong an extended echo", self._merger.left_out)

@@ -114,11 +114,12 @@ def _detected(
     pulses, rings = power.shape
     normaliser = FixedLevel(rings, 1.0)
     bursts = detector.detect(method.quantiser(normaliser).quantise(as_known), 0)
-    meter = PowerMeter(normaliser.noise_scale, detector.memory)
-    meter.room(pulses)[...] = power
-    meter.measure(bursts, bursts[:0], 0)
     history = RatioHistory(normaliser)
-    history.append(as_known, 0, 0)
+    signal = history.room(pulses, 0)
+    signal[...] = power
+    meter = PowerMeter(normaliser.noise_scale, detector.memory)
+    meter.measure(bursts, bursts[:0], 0, history)
+    signal[...] = as_known
 
     target = truth[bursts["ring"]]
     over = (bursts["start"] - detector.memory < target) & (bursts["end"] >= target)

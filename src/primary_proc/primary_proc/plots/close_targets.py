@@ -11,6 +11,7 @@ A group that is an extended echo anyway stays as it is.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +32,24 @@ _COMPARABLE = 0.1
 _SPLIT_ERROR = 0.125
 
 
+class Extents(NamedTuple):
+    """How far groups of bursts reach.
+
+    Attributes:
+        begin: first start, shape (groups,).
+        length: pulses from there to the last end, shape (groups,).
+        nearest: nearest ring, shape (groups,).
+        rings: rings from there to the farthest, shape (groups,).
+        cut: not zero where a burst was cut off by its limit, shape (groups,).
+    """
+
+    begin: npt.NDArray[np.int64]
+    length: npt.NDArray[np.int64]
+    nearest: npt.NDArray[np.int64]
+    rings: npt.NDArray[np.int64]
+    cut: npt.NDArray[np.int64]
+
+
 @dataclass(frozen=True, slots=True)
 class Targets:
     """Bursts ordered by target.
@@ -39,11 +58,15 @@ class Targets:
         groups: the bursts; one that covers two targets is there twice.
         centres: azimuth of each burst.
         burst: which of the bursts given each one is, shape (n,).
+        size: bursts of each target, shape (targets,).
+        extents: of each target.
     """
 
     groups: Groups
     centres: Centres
     burst: npt.NDArray[np.intp]
+    size: npt.NDArray[np.int64]
+    extents: Extents
 
 
 class TargetSeparator:
@@ -92,26 +115,25 @@ class TargetSeparator:
             The targets.
         """
         bursts, first = groups.bursts, groups.first
-        count = len(bursts)
-        burst = np.arange(count)
-        start, end, ring, power = (bursts[name] for name in ("start", "end", "ring", "power"))
-        begin, last = np.minimum.reduceat(start, first), np.maximum.reduceat(end, first)
-        rings = np.maximum.reduceat(ring, first) - np.minimum.reduceat(ring, first) + 1
-        whole = (rings <= self.target_rings) & (last - begin <= self.longest)
-        whole &= ~np.logical_or.reduceat(bursts["overflow"], first)
+        burst = np.arange(len(bursts))
+        size = np.concatenate([first[1:], [len(bursts)]]) - first
+        extents = _extents(bursts, first)
+        whole = self.of_a_target(extents)
+        ring, power = bursts["ring"], bursts["power"]
         width = np.interp(np.log(np.maximum.reduceat(power, first)), self._power, self._width)
-        long = whole & (last - begin > _LONGER * width + _MORE)
-        wide = whole & (rings > 2)
-        if not (long.any() or wide.any()):
-            return Targets(groups, centres, burst)
+        long = whole & (extents.length > _LONGER * width + _MORE)
+        wide = whole & (extents.rings > 2)
+        any_long, any_wide = np.logical_or.reduce(long), np.logical_or.reduce(wide)
+        if not (any_long or any_wide):
+            return Targets(groups, centres, burst, size, extents)
 
-        size = np.concatenate([first[1:], [count]]) - first
         group = np.repeat(np.arange(len(first)), size)
         label, position, std = group, centres.position, centres.std
-        if long.any():
+        if any_long:
             strongest = _strongest(group, power)[first[long]]
+            begin, last = extents.begin[long], (extents.begin + extents.length)[long]
             valleys = signal_valleys(
-                envelopes, ring[strongest], begin[long], last[long], self._pulses, self._valley
+                envelopes, ring[strongest], begin, last, self._pulses, self._valley
             )
             if valleys.deep.any():
                 burst, label, place = _cut(bursts, group, np.flatnonzero(long), valleys)
@@ -119,14 +141,32 @@ class TargetSeparator:
                 position = np.where(inside, position[burst], place)
                 std = np.where(inside, std[burst], _SPLIT_ERROR * self._pulses)
             label = self._by_azimuth(label, long[group[burst]], position, std, power[burst])
-        if wide.any():
+        if any_wide:
             label = self._in_range(label, wide[group[burst]], ring[burst], power[burst])
         if label is group:
-            return Targets(groups, centres, burst)
+            return Targets(groups, centres, burst, size, extents)
         order = np.argsort(label, kind="stable")
         burst, label = burst[order], label[order]
-        starts = np.flatnonzero(np.diff(label, prepend=-1))
-        return Targets(Groups(bursts[burst], starts), Centres(position[order], std[order]), burst)
+        bursts, first = bursts[burst], np.flatnonzero(np.diff(label, prepend=-1))
+        return Targets(
+            Groups(bursts, first),
+            Centres(position[order], std[order]),
+            burst,
+            np.diff(first, append=len(bursts)),
+            _extents(bursts, first),
+        )
+
+    def of_a_target(self, extents: Extents) -> npt.NDArray[np.bool_]:
+        """Tell which groups are no larger than a target; others are extended echoes.
+
+        Args:
+            extents: of the groups.
+
+        Returns:
+            Shape (groups,).
+        """
+        small = (extents.rings <= self.target_rings) & (extents.length <= self.longest)
+        return np.asarray(small & (extents.cut == 0))
 
     def _by_azimuth(
         self,
@@ -175,6 +215,17 @@ class TargetSeparator:
         beyond = np.zeros(len(label), np.int64)
         beyond[rows] = deep[target] & (column >= first_beyond[target])
         return 3 * label + beyond
+
+
+def _extents(bursts: npt.NDArray[np.void], first: npt.NDArray[np.int64]) -> Extents:
+    """Measure groups; the largest is the smallest with its sign changed, so that one call does."""
+    ends = np.empty((len(bursts), 5), np.int64)
+    ends[:, 0], ends[:, 1] = bursts["start"], bursts["ring"]
+    np.negative(bursts["end"], out=ends[:, 2])
+    np.negative(ends[:, 1], out=ends[:, 3])
+    np.negative(bursts["overflow"], out=ends[:, 4], dtype=np.int64)
+    begin, nearest, last, farthest, cut = np.minimum.reduceat(ends, first).T
+    return Extents(begin, -last - begin, nearest, 1 - farthest - nearest, cut)
 
 
 def _strongest(

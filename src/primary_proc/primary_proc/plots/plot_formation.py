@@ -76,36 +76,31 @@ def form_plots(
     """
     centres = estimator.estimate(groups.bursts, envelopes)
     targets = separator.separate(groups, centres, envelopes)
-    bursts, first, centres = targets.groups.bursts, targets.groups.first, targets.centres
-    stop = np.concatenate([first[1:], [len(bursts)]])
-    size = stop - first
-    plot = np.repeat(np.arange(len(first)), size)
+    bursts, first = targets.groups.bursts, targets.groups.first
+    size, extents = targets.size, targets.extents
 
-    weight = 1.0 / np.square(centres.std)
+    place, weight = targets.centres.position, 1.0 / np.square(targets.centres.std)
     total = np.add.reduceat(weight, first)
-    position = np.add.reduceat(weight * centres.position, first) / total
-    scatter = np.add.reduceat(weight * np.square(centres.position - position[plot]), first) / total
-    amplitude = np.sqrt(bursts["power"].astype(float))
-    in_ring = bursts["ring"]
-    ring = np.add.reduceat(amplitude * in_ring, first) / np.add.reduceat(amplitude, first) + 0.5
-    rings = np.maximum.reduceat(in_ring, first) - np.minimum.reduceat(in_ring, first) + 1
+    position = np.add.reduceat(weight * place, first) / total
+    plot = np.repeat(np.arange(len(first)), size)
+    scatter = np.add.reduceat(weight * np.square(place - position[plot]), first) / total
     # Pieces of one ring's burst look at the same signal; only rings have noise of their own.
-    variance = np.maximum(size / (rings * total), scatter)
-    strongest = np.lexsort((amplitude, plot))[stop - 1]
+    variance = np.maximum(size / (extents.rings * total), scatter)
+    amplitude = np.sqrt(bursts["power"].astype(float))
+    weighted = np.add.reduceat(amplitude * bursts["ring"], first)
+    ring = weighted / np.add.reduceat(amplitude, first) + 0.5
+    strongest = np.lexsort((amplitude, plot))[first + (size - 1)]
     peak = amplitude[strongest]
-    begin = np.minimum.reduceat(bursts["start"], first)
-    extent = np.maximum.reduceat(bursts["end"], first) - begin
-    extended = (rings > separator.target_rings) | (extent > separator.longest)
-    extended |= np.logical_or.reduceat(bursts["overflow"], first)
+    extended = ~separator.of_a_target(extents)
 
     plots = np.zeros(len(first), PLOT)
     plots["azimuth"], plots["time_offset"] = log.at(position)
     plots["range"] = grid.range_start + ring * grid.range_step
     plots["x"], plots["y"] = enu_from_polar(plots["range"], plots["azimuth"])
-    spread = np.where(extended, extent * _UNIFORM, np.sqrt(variance))
+    spread = np.where(extended, extents.length * _UNIFORM, np.sqrt(variance))
     plots["azimuth_std"] = grid.azimuth_step * spread
-    error = np.where(extended, rings * _UNIFORM, _range_error(rings, grid.reach / peak))
-    plots["range_std"] = grid.range_step * error
+    near = _range_error(extents.rings, grid.reach / peak)
+    plots["range_std"] = grid.range_step * np.where(extended, extents.rings * _UNIFORM, near)
     plots["amplitude"] = peak
     plots["snr_db"] = 20.0 * np.log10(peak)
     length = bursts["end"][strongest] - bursts["start"][strongest] + 1

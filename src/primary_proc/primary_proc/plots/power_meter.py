@@ -6,12 +6,14 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from primary_proc.plots.ratio_history import RatioHistory
+
 LARGEST_POWER = np.float32(1e9)
 """Power given to a cell over a noise level of zero, 90 dB."""
 
 
 class PowerMeter:
-    """Holds the ratios of the pulses at hand and the highest one so far of each burst that is still open."""
+    """Follows the highest ratio of each burst that is still open."""
 
     def __init__(self, noise_scale: npt.NDArray[np.float64], memory: int) -> None:
         """Start with nothing seen.
@@ -22,33 +24,14 @@ class PowerMeter:
         """
         self._scale = noise_scale.astype(np.float32)
         self._memory = memory
-        self._ratios = np.zeros((memory, len(noise_scale)), np.float32)
-        self._used = memory
         self._running = np.zeros(len(noise_scale), np.float32)
 
-    def reset(self) -> None:
-        """Forget all past pulses."""
-        self._ratios[: self._used] = 0.0
-
-    def room(self, pulses: int) -> npt.NDArray[np.float32]:
-        """Make room for the ratios of the next pulses; the last few of those before are kept.
-
-        Args:
-            pulses: how many.
-
-        Returns:
-            Array to write the ratios to, shape (pulses, cells).
-        """
-        memory = self._memory
-        kept = self._ratios[self._used - memory : self._used].copy()
-        if len(self._ratios) < memory + pulses:
-            self._ratios = np.zeros((memory + pulses, self._ratios.shape[1]), np.float32)
-        self._ratios[:memory] = kept
-        self._used = memory + pulses
-        return self._ratios[memory : self._used]
-
     def measure(
-        self, closed: npt.NDArray[np.void], going: npt.NDArray[np.void], first: int
+        self,
+        closed: npt.NDArray[np.void],
+        going: npt.NDArray[np.void],
+        first: int,
+        history: RatioHistory,
     ) -> None:
         """Fill in the power of the bursts that have ended and follow those that have not.
 
@@ -56,25 +39,25 @@ class PowerMeter:
             closed: bursts that ended within the pulses at hand; `power` is written.
             going: bursts that have not ended.
             first: number of the first of the pulses at hand.
+            history: ratios of these pulses and of those in the memory before them.
         """
         ring = np.concatenate([closed["ring"], going["ring"]])
         if not len(ring):
             return
         count = len(closed)
         start = np.concatenate([closed["start"], going["start"]])
-        last = first + self._used - self._memory - 1
-        stop = np.full(len(ring), last)
+        oldest, cells = history.first, history.ratios.shape[1]
+        stop = np.full(len(ring), oldest + len(history.ratios) - 1)
         stop[:count] = closed["end"]
         carried = start < first
-        begin = np.where(carried, first, start - self._memory)
+        begin = np.where(carried, first, np.maximum(start - self._memory, oldest))
         # A limit that has just become shorter ends a burst before these pulses.
         length = np.maximum(stop - begin + 1, 1)
         end = np.add.accumulate(length)
         offset = end - length
-        cells = self._ratios.shape[1]
-        place = np.repeat((begin - offset - first + self._memory) * cells + ring, length)
+        place = np.repeat((begin - offset - oldest) * cells + ring, length)
         place += np.arange(0, len(place) * cells, cells)
-        peak = np.fmax.reduceat(self._ratios.reshape(-1)[place], offset)
+        peak = np.fmax.reduceat(history.ratios.reshape(-1)[place], offset)
         peak = np.minimum(peak * self._scale[ring], LARGEST_POWER)
         peak = np.where(carried, np.fmax(peak, self._running[ring]), peak)
         closed["power"] = peak[:count]
