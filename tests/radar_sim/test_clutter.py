@@ -154,35 +154,42 @@ def test_a_patch_is_where_its_edges_are_and_as_soft_in_azimuth_as_the_beam():
     assert edge.sum() == 2
     share = Area(section, RADAR).share(np.radians(np.array([300.0, 40.0, 350.0, 100.0])))
     np.testing.assert_allclose(share, [0.5, 0.5, 1.0, 0.0], atol=1e-9)
+    # The two-way power exp(-2 a²) is a normal density of standard deviation 1/2.
+    before = np.array([-1.0, -0.5, 0.3]) * RADAR.half_width
+    share = Area(section, RADAR).share(np.radians(300.0) + before)
+    np.testing.assert_allclose(share, stats.norm.cdf(2.0 * before / RADAR.half_width), atol=1e-4)
 
 
-def test_land_keeps_its_texture_and_the_sea_changes_it():
-    def turns(lifetime):
-        section = PatchSection(
-            law="k", shape=0.5, cnr_db=20.0, spectrum="white", lifetime=lifetime, **WHOLE
-        )
-        source = section.disturbance(RADAR, np.random.default_rng(5))
-        textures = []
-        for turn in range(3):
-            reception = Reception(720 * turn, 720, RADAR.cells)
-            source.add_to(reception)
-            textures.append(reception.noise_power() - 1.0)
-        return textures
+def textures_of(lifetime, turns):
+    section = PatchSection(
+        law="k", shape=0.5, cnr_db=20.0, spectrum="white", lifetime=lifetime, **WHOLE
+    )
+    source = section.disturbance(RADAR, np.random.default_rng(5))
+    textures = []
+    for turn in turns:
+        reception = Reception(720 * turn, 720, RADAR.cells)
+        source.add_to(reception)
+        textures.append(reception.noise_power() - 1.0)
+    return textures
 
-    first, second, third = turns(0.0)
+
+def test_land_keeps_its_texture():
+    first, second, third = textures_of(0.0, [0, 1, 2])
     np.testing.assert_array_equal(first, second)
     np.testing.assert_array_equal(first, third)
+
+
+@pytest.mark.parametrize(("turns", "lag"), [([0, 1], 1), ([0, 1, 2], 2), ([0, 2], 2)])
+def test_the_sea_changes_its_texture_in_a_lifetime(turns, lag):
     # Through the normal field: its correlation falls to 1/e in a lifetime, which here is a turn.
-    textures = turns(1.0)
-    normal = [
-        stats.norm.ppf(gammainc(0.5, texture.astype(float) * 0.5 / 100.0)) for texture in textures
-    ]
-    knots = slice(None, None, 2)
-    finite = np.isfinite(normal).all(axis=0)[knots]
-    for lag in (1, 2):
-        one, other = normal[0][knots][finite], normal[lag][knots][finite]
-        measured = np.corrcoef(one, other)[0, 1]
-        assert measured == pytest.approx(math.exp(-lag), abs=5.0 / math.sqrt(one.size / 2.0))
+    textures = textures_of(1.0, turns)
+    first, last = (
+        stats.norm.ppf(gammainc(0.5, texture[::2].astype(float) * 0.5 / 100.0))
+        for texture in (textures[0], textures[-1])
+    )
+    finite = np.isfinite(first) & np.isfinite(last)
+    measured = np.corrcoef(first[finite], last[finite])[0, 1]
+    assert measured == pytest.approx(math.exp(-lag), abs=5.0 / math.sqrt(finite.sum() / 2.0))
 
 
 def test_grain_is_the_distance_in_which_texture_changes():
