@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import uniform_filter1d
 
-from primary_proc.choices import NORMALISERS
+from primary_proc.choices import NORMALISERS, RANGE_WINDOWS
 from primary_proc.parameters import ExtractorParameters
 
 PULSES, CELLS, SECTOR = 1024, 1024, 128
@@ -48,7 +48,7 @@ def sliding_partition(video, rows):
 
 def run(benchmark, name, cells, function):
     benchmark.group = "normalisers"
-    result = benchmark.pedantic(function, rounds=7, warmup_rounds=1)
+    result = benchmark.pedantic(function, rounds=15, warmup_rounds=1)
     BEST[name] = benchmark.stats.stats.min / cells
     return result
 
@@ -70,7 +70,7 @@ def test_peer_sliding_partition(benchmark, video, at_once):
     assert found == pytest.approx(inside, rel=1e-3), "both do the same work"
 
 
-@pytest.mark.parametrize("name", NORMALISERS)
+@pytest.mark.parametrize("name", [*RANGE_WINDOWS, "fixed-level"])
 def test_normaliser(benchmark, video, ratio, name):
     normaliser = NORMALISERS[name](PARAMETERS, CELLS)
     azimuth, out = np.zeros(SECTOR), np.empty((SECTOR, CELLS), np.float32)
