@@ -21,8 +21,7 @@ class PulseLog:
     def __init__(self) -> None:
         """Start with no pulse."""
         self.next = 0
-        self._azimuth = np.zeros(0)
-        self._time = np.zeros(0)
+        self._pulses = np.zeros((2, 0))
 
     def append(self, azimuth: FloatArray, time: FloatArray, keep: int) -> int:
         """Add pulses and forget those that are no longer needed.
@@ -35,10 +34,12 @@ class PulseLog:
         Returns:
             Number of the first pulse added.
         """
-        first = self.next
-        old = max(keep - (first - len(self._azimuth)), 0)
-        self._azimuth = np.concatenate([self._azimuth[old:], azimuth])
-        self._time = np.concatenate([self._time[old:], time])
+        first, known = self.next, self._pulses.shape[1]
+        old = max(keep - (first - known), 0)
+        pulses = np.empty((2, known - old + len(azimuth)))
+        pulses[:, : known - old] = self._pulses[:, old:]
+        pulses[0, known - old :], pulses[1, known - old :] = azimuth, time
+        self._pulses = pulses
         self.next += len(azimuth)
         return first
 
@@ -51,13 +52,12 @@ class PulseLog:
         Returns:
             (azimuth, time): rad in [0, 2 pi) and s, shape (n,).
         """
-        oldest = self.next - len(self._azimuth)
-        last = len(self._azimuth) - 1
-        place = np.minimum(np.maximum(np.asarray(position) - oldest, 0.0), last)
+        known = self._pulses.shape[1]
+        place = np.asarray(position) - (self.next - known)
+        place = np.minimum(np.maximum(place, 0.0), known - 1)
         before = place.astype(np.int64)
-        after = np.minimum(before + 1, last)
-        part = place - before
-        azimuth, time = self._azimuth[before], self._time[before]
-        turn = self._azimuth[after] - azimuth
-        turn -= TWO_PI * np.rint(turn / TWO_PI)
-        return wrap_two_pi(azimuth + part * turn), time + part * (self._time[after] - time)
+        here = self._pulses[:, before]
+        advance = self._pulses.take(before + 1, axis=1, mode="clip") - here
+        advance[0] -= TWO_PI * np.rint(advance[0] / TWO_PI)
+        here += (place - before) * advance
+        return wrap_two_pi(here[0]), here[1]

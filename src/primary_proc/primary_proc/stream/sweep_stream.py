@@ -31,6 +31,7 @@ _UNEVEN = 0.125  # Share of breaks at which the azimuth cannot be followed.
 _STANDING = 0.25  # Share of the known step.
 _LEAST_STEP = 1e-6  # rad
 _LEARNING = 0.1  # Scans over which the step is averaged.
+_NOWHERE = np.zeros(0, np.intp)
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,21 +162,23 @@ class SweepStream:
         azimuth = rows["azimuth"].astype(np.float64)
         start, step = rows["range_start"], rows["range_step"]
         last = self._last or _Pulse(rows.dtype, azimuth[0], time[0], start[0], step[0])
-        turn = _turns(np.concatenate([[last.azimuth], azimuth]))
-        pause = time - np.concatenate([[last.time], time[:-1]])
-        breaks = self._jumps(turn, pause)
-        self._mark_other_cells(breaks, (start, last.range_start), (step, last.range_step))
-        breaks[0] |= self._last is None
-        inner = breaks[1:].nonzero()[0] + 1
+        turn, pause = _advance(last.azimuth, azimuth), _advance(last.time, time)
+        jumps = self._jumps(turn, pause)
+        others = self._other_cells((start, last.range_start), (step, last.range_step))
+        broken = np.unique(np.concatenate([jumps, others])) if len(jumps) or len(others) else jumps
+        inner = broken[broken > 0]
         if len(inner) > _UNEVEN * len(rows):
             return self._lose("pulses whose azimuth or time advances unevenly", time)
-        if not self._follow(turn[~breaks]):
+        fresh = self._last is None or len(inner) < len(broken)
+        if not self._follow(
+            np.delete(turn, [0] * fresh + [*inner]) if fresh or len(inner) else turn
+        ):
             return self._lose("pulses while the antenna stands still or turns back", time)
         self._last = _Pulse(rows.dtype, azimuth[-1], time[-1], start[-1], step[-1])
         video = self._envelope(rows["video"])
         return [
             Pulses(
-                fresh=bool(breaks[begin]),
+                fresh=fresh or begin > 0,
                 video=video[begin:end],
                 azimuth=azimuth[begin:end],
                 time=time[begin:end],
@@ -193,35 +196,26 @@ class SweepStream:
         self._latest = float(time[-1])
         return []
 
-    def _jumps(self, turn: FloatArray, pause: FloatArray) -> npt.NDArray[np.bool_]:
-        """Tell at which pulses azimuth or time does not go on."""
+    def _jumps(self, turn: FloatArray, pause: FloatArray) -> npt.NDArray[np.intp]:
+        """List the pulses at which azimuth or time does not go on; makes turns the shorter way around."""
         back, ahead = _BACK * self._step, _AHEAD * self._step
         longest = _PAUSE * self._period if self._period else np.inf
-        steady = (
-            np.minimum.reduce(turn) >= back
-            and np.maximum.reduce(turn) <= ahead
-            and np.minimum.reduce(pause) >= 0.0
-            and np.maximum.reduce(pause) <= longest
-        )
-        if steady:
-            return np.zeros(len(turn), bool)
+        if _within(turn, back, ahead) and _within(pause, 0.0, longest):
+            return _NOWHERE
+        turn -= TWO_PI * np.rint(turn / TWO_PI)
         jumped = (turn < back) | (turn > ahead) | (pause < 0.0) | (pause > longest)
-        self._health.drop(
-            "stream broken by a gap or jump of azimuth or time", int(np.count_nonzero(jumped))
-        )
-        return jumped
+        where = jumped.nonzero()[0]
+        self._health.drop("stream broken by a gap or jump of azimuth or time", len(where))
+        return where
 
-    def _mark_other_cells(
-        self, breaks: npt.NDArray[np.bool_], *layouts: tuple[FloatArray, float]
-    ) -> None:
-        """Mark the pulses whose range cells are not those of the pulse before: field and value before the pulses."""
+    def _other_cells(self, *layouts: tuple[FloatArray, float]) -> npt.NDArray[np.intp]:
+        """List the pulses whose range cells are not those of the pulse before: field and value before the pulses."""
+        where = _NOWHERE
         for layout, before in layouts:
             if np.logical_or.reduce(layout != before):
-                other = layout != np.concatenate([[before], layout[:-1]])
-                breaks |= other
-                self._health.drop(
-                    "stream broken by other range cells", int(np.count_nonzero(other))
-                )
+                where = np.union1d(where, _advance(before, layout).nonzero()[0])
+        self._health.drop("stream broken by other range cells", len(where))
+        return where
 
     def _follow(self, turn: FloatArray) -> bool:
         """Average the azimuth step; tell whether the antenna turns at all."""
@@ -239,15 +233,22 @@ class SweepStream:
         return True
 
 
-def _turns(azimuth: FloatArray) -> FloatArray:
-    """Turn from each pulse to the next, the shorter way around."""
-    turn = azimuth[1:] - azimuth[:-1]
-    return turn - TWO_PI * np.rint(turn / TWO_PI)
+def _advance(before: float, values: FloatArray) -> FloatArray:
+    """Difference of each value to the one before it."""
+    change = np.empty(len(values))
+    np.subtract(values[1:], values[:-1], out=change[1:])
+    change[0] = values[0] - before
+    return change
+
+
+def _within(values: FloatArray, low: float, high: float) -> bool:
+    return bool(np.minimum.reduce(values) >= low and np.maximum.reduce(values) <= high)
 
 
 def _mean_step(azimuth: FloatArray) -> float:
     """Mean step without lost pulses; also of an encoder that is coarser than the step."""
-    turn = _turns(azimuth)
+    turn = _advance(azimuth[0], azimuth)[1:]
+    turn -= TWO_PI * np.rint(turn / TWO_PI)
     middle = float(np.median(turn))
     if middle <= 0.0:
         return float(turn.mean())
