@@ -89,11 +89,11 @@ def stepped(rule, bits, longest):
     return sorted(closed), going
 
 
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=100)
 @given(data=st.data())
 def test_detector_is_the_automaton_however_the_pulses_are_cut(run, data):
     kind, rule = data.draw(st.sampled_from(DETECTORS))
-    rings = data.draw(st.integers(1, 130))
+    rings = data.draw(st.integers(1, 70))
     pulses = data.draw(st.integers(1, 60))
     longest = data.draw(st.sampled_from([2, 5, 12, NO_LIMIT]))
     share = data.draw(st.sampled_from([0.1, 0.5, 0.8, 0.97]))

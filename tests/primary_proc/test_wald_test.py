@@ -7,7 +7,11 @@ import numpy as np
 import pytest
 from scipy.special import i0e
 
-from primary_proc.calculators.wald_test import sequential_quality, wald_bounds
+from primary_proc.calculators.wald_test import (
+    operating_characteristic,
+    sequential_quality,
+    wald_bounds,
+)
 
 RUNS = 8000
 AMPLITUDE = 1.5
@@ -59,6 +63,12 @@ def test_true_errors_are_below_the_wanted_ones():
 def test_stronger_targets_are_decided_sooner():
     lengths = [sequential_quality(a, 1e-3, 0.1).target_length for a in (1.0, 1.5, 2.0, 3.0)]
     assert (np.diff(lengths) < 0.0).all()
+
+
+def test_a_target_between_noise_and_the_tests_own_takes_longest():
+    decided, length = operating_characteristic(2.0, [0.0, 0.7, 1.2, 2.0, 3.0], 1e-3, 0.1)
+    assert (np.diff(decided) > 0.0).all()
+    assert length.argmax() == 2
 
 
 @pytest.mark.parametrize("errors", [(0.0, 0.1), (0.1, 0.0), (0.6, 0.5), (-0.1, 0.2)])

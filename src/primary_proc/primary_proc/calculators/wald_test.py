@@ -58,10 +58,7 @@ def wald_bounds(false_alarm: float, miss: float) -> tuple[float, float]:
 
 
 def sequential_quality(amplitude: float, false_alarm: float, miss: float) -> SequentialQuality:
-    """Errors and lengths of the test for a steady target, from the integral equations of the sum between its bounds.
-
-    Each sample adds -a^2 / 2 + ln I_0(a x) for an envelope x; the interval between the bounds is cut into cells and
-    the equations become a linear system.
+    """Errors and lengths of the test for a steady target.
 
     Args:
         amplitude: a, of the target over the noise's sigma, the same on each pulse.
@@ -71,21 +68,42 @@ def sequential_quality(amplitude: float, false_alarm: float, miss: float) -> Seq
     Returns:
         The true errors and the mean numbers of samples.
     """
+    decided, length = operating_characteristic(amplitude, [0.0, amplitude], false_alarm, miss)
+    return SequentialQuality(
+        float(decided[0]), 1.0 - float(decided[1]), float(length[0]), float(length[1])
+    )
+
+
+def operating_characteristic(
+    amplitude: float, true: npt.ArrayLike, false_alarm: float, miss: float
+) -> tuple[FloatArray, FloatArray]:
+    """What the test made for one steady target does on others, from the integral equations of its sum.
+
+    Each sample adds -a^2 / 2 + ln I_0(a x) for an envelope x; the interval between the bounds is cut into cells and
+    the equations become a linear system.
+
+    Args:
+        amplitude: a, that the test is made for, over the noise's sigma.
+        true: amplitudes that there are, shape (n,).
+        false_alarm: wanted probability to decide for the target in noise.
+        miss: wanted probability to decide for noise on the target.
+
+    Returns:
+        (probability to decide for the target, mean number of samples), each of shape (n,).
+    """
     lower, upper = np.log(wald_bounds(false_alarm, miss))
     edges = np.linspace(lower, upper, _CELLS + 1)
+    # The sum is followed from the middle of each cell, and from zero, where it begins.
     places = np.append((edges[1:] + edges[:-1]) / 2.0, 0.0)
     envelope = np.linspace(0.0, _HIGHEST_ENVELOPE, _ENVELOPES)
     change = np.log(i0e(amplitude * envelope)) + amplitude * envelope - amplitude**2 / 2.0
     steps = edges - places[:, None]
-
-    def solve(target: float) -> tuple[float, float]:
-        """Probability of the upper bound, and mean length, from zero."""
-        over = np.interp(steps, change, steady_probability(envelope, target))
+    decided, length = np.empty(np.shape(true)), np.empty(np.shape(true))
+    for place, present in enumerate(np.asarray(true, dtype=float)):
+        over = np.interp(steps, change, steady_probability(envelope, present))
         stays = over[:, :-1] - over[:, 1:]
-        inner = np.eye(_CELLS) - stays[:-1]
-        wins, length = np.linalg.solve(inner, np.stack([over[:-1, -1], np.ones(_CELLS)], 1)).T
-        return float(stays[-1] @ wins + over[-1, -1]), float(stays[-1] @ length + 1.0)
-
-    false, noise_length = solve(0.0)
-    detected, target_length = solve(amplitude)
-    return SequentialQuality(false, 1.0 - detected, noise_length, target_length)
+        sources = np.stack([over[:-1, -1], np.ones(_CELLS)], axis=1)
+        wins, lasts = np.linalg.solve(np.eye(_CELLS) - stays[:-1], sources).T
+        decided[place] = stays[-1] @ wins + over[-1, -1]
+        length[place] = stays[-1] @ lasts + 1.0
+    return decided, length
