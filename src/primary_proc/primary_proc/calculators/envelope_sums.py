@@ -14,7 +14,7 @@ from primary_proc.calculators.target_models import TARGETS
 FloatArray = npt.NDArray[np.float64]
 
 _LEAST = 1e-13
-_MOST_FREQUENCIES = 20_000
+_MOST_FREQUENCIES = 4096
 _REACH = 14.0
 _STEP = 0.02
 _ROOM = 9.5
@@ -42,7 +42,7 @@ class SumLaw:
         """
         self._mean, self._spread = mean, spread
         step = np.pi / (2.0 * _REACH * spread)
-        count = 256
+        count = 512
         while True:
             frequency = (np.arange(count) + 0.5) * step
             value = characteristic(frequency)
@@ -59,7 +59,7 @@ class SumLaw:
             threshold: on the sum.
 
         Returns:
-            Probability, to about 1e-11.
+            Probability, to about 1e-11 from eight equal pulses on; of three it has three digits in the tail.
         """
         turned = self._weight * np.exp(-1j * self._frequency * threshold)
         return float(np.clip(0.5 + turned.imag.sum(), 0.0, 1.0))

@@ -118,7 +118,7 @@ def start_rate(scores: npt.ArrayLike, probability: npt.ArrayLike) -> StartRate:
     now = np.concatenate([edge, table])
     change = now - np.concatenate([table, edge])
     if whole:
-        span = int(np.clip(change, 0.0, None).max(axis=1).sum())
+        span = int(max(np.clip(side * change, 0.0, None).max(axis=1).sum() for side in (1, -1)))
         return _rate_of(now, change, chance, 1.0, int(top.sum()) + 1, 2 * span + 1, True)
     mean = change @ chance
     spread = float(np.sqrt((np.square(change) @ chance - np.square(mean)).sum()))
