@@ -189,7 +189,8 @@ class ExtractorParameters(Parameters):
             )
         if self.normaliser == "fixed-level" and self.noise_level == 0.0:
             raise ParameterError("normaliser fixed-level needs a noise_level over 0")
-        if self.normaliser in RANGE_WINDOWS and self.guard_cells > 2 * self.reference_cells:
+        looks_around = self.normaliser in (*RANGE_WINDOWS, "clutter-map")
+        if looks_around and self.guard_cells > 2 * self.reference_cells:
             raise ParameterError(
                 f"{self.guard_cells} guard_cells lie between a cell and its {self.reference_cells} reference_cells: "
                 "a noise level from so far away is not that of the cell"

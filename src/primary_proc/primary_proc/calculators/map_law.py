@@ -106,9 +106,9 @@ class MapLevel(LevelLaw):
         """Levels of the map and their weights."""
         share, weight = _unit_nodes()
         shape = 1.0 / self.variance
-        return gammaincinv(shape, share) / shape, weight
+        return np.asarray(gammaincinv(shape, share) / shape), weight
 
 
 def _unit_nodes() -> tuple[FloatArray, FloatArray]:
     node, weight = np.polynomial.legendre.leggauss(_NODES)
-    return np.asarray(0.5 * (node + 1.0), float), np.asarray(0.5 * weight, float)
+    return np.asarray(0.5 * (node + 1.0)), np.asarray(0.5 * weight)

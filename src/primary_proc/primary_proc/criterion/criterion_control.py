@@ -28,14 +28,15 @@ Ratios = npt.NDArray[np.float32]
 
 _WHOLE = 0.75
 _ROUNDING = 1e-6
-_LATEST_BLOCKS = 256
+_PULSES_AT_HAND = 128
 
 
 class CriterionControl:
     """Follows the beam from sector to sector, looks at suspicious zones and lowers the ratios of raised ones.
 
-    Everything is decided where the beam enters or leaves a sector, from what lies at least a few sectors back, so plots
-    do not depend on how pulses are cut into messages. A raise decided in a sector holds there from the next turn on.
+    Everything is decided where the beam enters or leaves a sector, from plots that lie so far back that all of them
+    have come; so nothing depends on how pulses are cut into messages. A raise decided in a sector holds there from the
+    next turn on.
     """
 
     def __init__(self, parameters: ExtractorParameters, cells: int, health: Health) -> None:
@@ -55,8 +56,6 @@ class CriterionControl:
         self._sectors_per_rad = zones.sectors / TWO_PI
         self._new: list[tuple[FloatArray, FloatArray]] = []
         self._plots = np.zeros((zones.sectors, len(zones)), np.int64)
-        quarter = np.arange(zones.sectors) * 4 // zones.sectors
-        self._sides = (quarter == 0) | (quarter == 3)
         self._factors: dict[int, Ratios] = {}
         self._fewest = 0.0
         self.restart()
@@ -78,8 +77,10 @@ class CriterionControl:
         self._expected = design.method.false_starts * pulses * self._zones.widths
         self._fewest = _WHOLE * pulses
         # Plots come up to two longest bursts after their azimuth, and not before the end of the pulses at hand.
-        latest = 2 * design.longest + design.requirements.gap + _LATEST_BLOCKS
-        self._lag = min(1 + math.ceil(latest / pulses), self._zones.sectors - 1)
+        latest = 2 * design.longest + design.requirements.gap + _PULSES_AT_HAND
+        sectors = self._zones.sectors
+        self._lag = min(1 + math.ceil(latest / pulses), sectors - 1)
+        self._every = min(sectors // 2, sectors - self._lag)
 
     def restart(self) -> None:
         """Expect pulses that do not continue those before; what was learned stays."""
@@ -138,9 +139,8 @@ class CriterionControl:
         if self._sector >= 0 and not 0 < ahead <= self._zones.sectors // 2:
             return
         self._leave()
-        half = self._zones.sectors // 2
-        if (sector < half) != (self._sector < half):
-            self._suspect(self._sides if sector >= half else ~self._sides)
+        if sector // self._every != self._sector // self._every:
+            self._suspect(sector)
         if self._limit is not None:
             self._sort_plots()
             self._limit.settle((sector - self._lag) % self._zones.sectors)
@@ -153,15 +153,18 @@ class CriterionControl:
             gain = np.float32(10.0 ** (-self._limit.raise_db / 10.0))
             self._factor = np.atleast_1d(gain) if self._factor is None else self._factor * gain
 
-    def _suspect(self, behind: npt.NDArray[np.bool_]) -> None:
-        """Judge the plots of the half turn that lies between one and three quarters of a turn back."""
+    def _suspect(self, sector: int) -> None:
+        """Judge the plots of the sectors that lie some way back; once or twice a turn, for it is slow on few."""
         self._sort_plots()
-        self._raises.suspect(np.where(behind[:, None], self._plots, 0), self._expected)
+        behind = (sector - self._lag - np.arange(self._every)) % self._zones.sectors
+        plots = np.zeros_like(self._plots)
+        plots[behind] = self._plots[behind]
         self._plots[behind] = 0
+        self._raises.suspect(plots, self._expected)
         self._report()
 
     def _sort_plots(self) -> None:
-        """Sort the plots that have come into their zones; as rarely as can be, for it is slow on few."""
+        """Sort the plots that have come into their zones."""
         if not self._new:
             return
         cell, azimuth = map(np.concatenate, zip(*self._new, strict=True))

@@ -38,6 +38,7 @@ class Zones:
         count = max(1, round(cells / _CELLS))
         self.bounds = np.linspace(0, cells, count + 1).round().astype(np.int64)
         self.widths = np.diff(self.bounds)
+        self._zone_of = np.repeat(np.arange(count), self.widths)
         self.resolution_cells = self.widths * (TWO_PI / self.sectors / beamwidth)
 
     def __len__(self) -> int:
@@ -57,7 +58,7 @@ class Zones:
         return np.minimum(index.astype(np.int64), self.sectors - 1)
 
     def zone(self, cell: npt.ArrayLike) -> npt.NDArray[np.int64]:
-        """Tell the zone of a range cell, to the cell at a boundary.
+        """Tell the zone of a range cell.
 
         Args:
             cell: number of the cell, with or without a fraction, any shape.
@@ -65,8 +66,7 @@ class Zones:
         Returns:
             Number of the zone within its sector, same shape.
         """
-        index = np.asarray(cell) * (len(self) / self.bounds[-1])
-        return np.clip(index.astype(np.int64), 0, len(self) - 1)
+        return self._zone_of[np.clip(np.asarray(cell).astype(np.int64), 0, len(self._zone_of) - 1)]
 
     def cells(self, zone: npt.NDArray[np.integer]) -> tuple[npt.NDArray[np.int64], npt.NDArray]:
         """List the range cells of some zones.
