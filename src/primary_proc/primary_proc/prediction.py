@@ -16,7 +16,7 @@ from primary_proc.methods.detection_method import SettledMethod
 from primary_proc.methods.requirements import Requirements
 
 _WANTED = (0.5, 0.9)
-_SNR_DB = np.arange(0.0, 25.0, 2.0)
+_SNR_DB = np.arange(0.0, 25.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,8 +87,7 @@ def predict(
     """
     step_deg = 360.0 / requirements.pulses_per_scan
     found = {target: method.detection_probability(_SNR_DB - loss_db, target) for target in TARGETS}
-    peak = 10.0 ** (_SNR_DB / 10.0)
-    std = method.accuracy.look_up(peak)[1]
+    std = method.accuracy.std_at(_SNR_DB - loss_db)
     return Prediction(
         detector=name,
         pulses_in_burst=requirements.pulses,

@@ -26,11 +26,13 @@ class AccuracyTable:
     """Bias and standard deviation of the start-end azimuth as a function of the burst's peak.
 
     Attributes:
-        power: median peak power over the mean noise power, rising, shape (n,).
+        strength: mean power of the target at the beam's axis over the mean noise power, rising, shape (n,).
+        power: median peak power over the mean noise power that goes with it, rising, shape (n,).
         bias: of the middle between start and end, in steps, shape (n,).
         std: in steps, shape (n,).
     """
 
+    strength: FloatArray
     power: FloatArray
     bias: FloatArray
     std: FloatArray
@@ -47,6 +49,18 @@ class AccuracyTable:
         position = np.log(power)
         grid = np.log(self.power)
         return np.interp(position, grid, self.bias), np.interp(position, grid, self.std)
+
+    def std_at(self, snr_db: npt.ArrayLike) -> FloatArray:
+        """Standard deviation for targets of known strength, for predictions.
+
+        Args:
+            snr_db: mean power at the beam's axis over the mean noise power, shape (n,).
+
+        Returns:
+            In steps, shape (n,); beyond the ends the last value holds.
+        """
+        grid = 10.0 * np.log10(self.strength)
+        return np.asarray(np.interp(np.asarray(snr_db, dtype=float), grid, self.std))
 
 
 def accuracy_table(
@@ -80,7 +94,8 @@ def accuracy_table(
     bias = (weight * error).sum(axis=(1, 2, 3))
     variance = (weight * error**2).sum(axis=(1, 2, 3)) - bias**2
     peak = np.maximum(_median_peak(TARGETS[target], amplitude[:, 1]), threshold)
-    return AccuracyTable(np.maximum.accumulate(peak**2 / 2.0), bias, np.sqrt(variance))
+    rising = np.maximum.accumulate(peak**2 / 2.0)
+    return AccuracyTable(_AMPLITUDES**2 / 2.0, rising, bias, np.sqrt(variance))
 
 
 def _of_plots(

@@ -185,7 +185,9 @@ def accuracy_tables(
         middle = (bursts["start"] + bursts["end"]) / 2.0 - truth
         centre = bursts["centre"] - truth
         power = np.median(peak[bursts["ring"]])
-        rows.append((power, middle.mean(), middle.std(), centre.mean(), centre.std()))
-    power, *errors = np.array(rows).T
-    rising = np.maximum.accumulate(power)
-    return AccuracyTable(rising, *errors[:2]), AccuracyTable(rising, *errors[2:])
+        rows.append(
+            (amplitude**2 / 2.0, power, middle.mean(), middle.std(), centre.mean(), centre.std())
+        )
+    strength, power, *errors = np.array(rows).T
+    peaks = strength, np.maximum.accumulate(power)
+    return AccuracyTable(*peaks, *errors[:2]), AccuracyTable(*peaks, *errors[2:])

@@ -184,8 +184,10 @@ def _fluctuate(
         "fast": shape,
     }[fluctuation]
     if fluctuation == "steady":
-        return np.exp(2j * np.pi * rng.random(drawn))
-    return (rng.standard_normal(drawn) + 1j * rng.standard_normal(drawn)) / math.sqrt(2.0)
+        return np.asarray(np.exp(2j * np.pi * rng.random(drawn)))
+    return np.asarray(
+        (rng.standard_normal(drawn) + 1j * rng.standard_normal(drawn)) / math.sqrt(2.0)
+    )
 
 
 def _extract(
