@@ -101,6 +101,7 @@ class ExtractionChain:
         self._going = self._detector.open_bursts()
         self._criterion.restart()
         self._begin = self._log.next
+        self._history.restart(self._begin)
         return plots
 
     def _block(
@@ -119,7 +120,7 @@ class ExtractionChain:
         self._health.drop("bursts that prolong an extended echo", self._merger.left_out)
         self._health.drop("samples that are not finite, taken as zero", bad)
         self._health.count("pulses in", len(video))
-        self._health.count("bursts cut at their longest", int(closed["overflow"].sum()))
+        self._health.count("bursts cut at their longest", int(np.count_nonzero(closed["overflow"])))
         self._rates.add(len(video), self._quantiser.ones, len(plots))
         return plots
 

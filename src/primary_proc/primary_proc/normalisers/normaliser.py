@@ -7,6 +7,7 @@ a ratio of noise alone exceeds a threshold; everything behind it works on ratios
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 
 import numpy as np
@@ -110,7 +111,7 @@ def square_in_place(envelope: npt.NDArray[np.float32]) -> int:
     """
     np.multiply(envelope, envelope, out=envelope)
     # The maximum is NaN or infinite if any sample is: one cheap look instead of a mask.
-    if np.isfinite(np.maximum.reduce(envelope, axis=None, initial=np.float32(0.0))):
+    if math.isfinite(np.maximum.reduce(envelope, axis=None, initial=0.0)):
         return 0
     bad = ~np.isfinite(envelope)
     envelope[bad] = 0.0

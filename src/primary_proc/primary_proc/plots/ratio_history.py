@@ -10,8 +10,6 @@ from primary_proc.normalisers.normaliser import Normaliser
 
 FloatArray = npt.NDArray[np.float64]
 
-_ROOM = 4
-
 
 class RatioHistory:
     """Keeps what the open and waiting bursts may still need; an `Envelopes`.
@@ -29,7 +27,6 @@ class RatioHistory:
         """
         self._normaliser = normaliser
         self._buffer = np.zeros((0, len(normaliser.noise_scale)), np.float32)
-        self._begin = 0
         self.ratios = self._buffer
         self.first = 0
 
@@ -44,19 +41,23 @@ class RatioHistory:
             Array to write the ratios to, shape (pulses, cells).
         """
         old = min(max(keep - self.first, 0), len(self.ratios))
-        kept = len(self.ratios) - old
-        begin = self._begin + old
-        if begin + kept + pulses > len(self._buffer):
-            # Room for several messages, so that what is kept is seldom moved.
-            if len(self._buffer) < 2 * (kept + pulses):
-                shape = (_ROOM * (kept + pulses), self._buffer.shape[1])
-                self._buffer = np.empty(shape, np.float32)
-            self._buffer[:kept] = self.ratios[old:]
-            begin = 0
-        self._begin = begin
-        self.ratios = self._buffer[begin : begin + kept + pulses]
+        past = self.ratios[old:]
+        kept = len(past)
+        # What is kept is moved to the front, a few pulses as a rule: the same memory again stays in the cache.
+        if kept + pulses > len(self._buffer):
+            self._buffer = np.empty((kept + kept // 4 + pulses, past.shape[1]), np.float32)
+        self._buffer[:kept] = past
+        self.ratios = self._buffer[: kept + pulses]
         self.first += old
         return self.ratios[kept:]
+
+    def restart(self, following: int) -> None:
+        """Forget all pulses: the next one does not continue them.
+
+        Args:
+            following: number of the next pulse.
+        """
+        self.ratios, self.first = self._buffer[:0], following
 
     def around(
         self, ring: npt.NDArray[np.integer], pulse: npt.NDArray[np.integer], reach: int
