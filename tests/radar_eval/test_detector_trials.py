@@ -5,15 +5,18 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.stats import binom, poisson
+from scipy.stats import binom, norm, poisson
 
 from primary_proc.choices import METHODS
 from radar_eval.studies.detector_trials import TrialRadar, count_false_plots, try_targets
 
 CONFIDENCE = 0.999
 FALSE_STARTS = 2e-4
+FEW_FALSE_STARTS = 1e-5
+RESOLUTION = 1e-3
 DETECTORS = ["3/4-2", "3/3-2", "4/4-3", "3/5-3", *METHODS]
 SNR_DB = (3.0, 6.0, 9.0)
+STRONG_DB = (10.0, 14.0)
 LENGTHS = (9.0, 16.0)
 
 
@@ -43,5 +46,23 @@ def test_targets_are_found_as_often_as_predicted(radar, detector, length, fluctu
     rng = np.random.default_rng(2)
     for snr_db, probability in zip(SNR_DB, predicted, strict=True):
         targets = try_targets(on_trial, parameters, snr_db, fluctuation, rng)
-        low, high = binom.interval(CONFIDENCE, len(targets.found), probability)
+        count = len(targets.found)
+        # Some predictions are simulated themselves and know no chance smaller than one in some thousand.
+        low, _ = binom.interval(CONFIDENCE, count, min(probability, 1.0 - RESOLUTION))
+        _, high = binom.interval(CONFIDENCE, count, probability)
         assert low <= targets.found.sum() <= high, f"{snr_db} dB"
+
+
+@pytest.mark.parametrize("detector", DETECTORS)
+def test_azimuths_are_as_accurate_as_predicted(radar, detector):
+    """Within 5 %, and what the sample can tell: the spread of a standard deviation is 1 / sqrt(2 n) of it."""
+    on_trial = radar(16.0)
+    parameters = on_trial.parameters(detector, FEW_FALSE_STARTS)
+    predicted = on_trial.design(parameters).method.accuracy.std_at(STRONG_DB)
+    rng = np.random.default_rng(3)
+    for snr_db, std in zip(STRONG_DB, predicted, strict=True):
+        error = try_targets(on_trial, parameters, snr_db, "steady", rng).error
+        error = error[np.isfinite(error)]
+        chance = norm.isf((1.0 - CONFIDENCE) / 2.0) / np.sqrt(2.0 * len(error))
+        assert abs(error.std() / std - 1.0) < 0.05 + chance, f"{snr_db} dB"
+        assert abs(error.mean()) < 0.1 * std + 4.0 * std / np.sqrt(len(error)), f"{snr_db} dB"
