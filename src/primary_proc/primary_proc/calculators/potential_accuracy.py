@@ -77,6 +77,7 @@ def quantised_bound(
     *,
     offset: float = 0.0,
     model: str = "exact",
+    book: bool = True,
 ) -> FloatArray:
     """Bound of a binary-quantised burst.
 
@@ -90,6 +91,8 @@ def quantised_bound(
         fluctuation: "steady" or "fast".
         offset: displacement of the target from the middle position, in steps; for "exact" only.
         model: "exact" or "kuzmin".
+        book: whether to take the N_0 positions of the book; otherwise as many as hold the whole pattern, which strong
+            targets need. For "exact" only.
 
     Returns:
         Standard deviation in steps, shape (...).
@@ -102,7 +105,7 @@ def quantised_bound(
         return _kuzmin_bound(pattern, pulses, threshold, strength, fluctuation)
     if model != "exact":
         raise ValueError(f"model {model!r} is neither exact nor kuzmin")
-    shape = burst_shape(pattern, pulses, offset)
+    shape = burst_shape(pattern, pulses, offset, book=book)
     half = pulses / 2.0
     alpha = (np.arange(len(shape)) - (len(shape) - 1) / 2.0 - offset) / half
     slope = -pattern_slope(pattern, alpha) / half

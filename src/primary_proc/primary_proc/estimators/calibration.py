@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 
 from primary_proc.calculators.equivalent_cells import equivalent_cells
 from primary_proc.estimators.azimuth_estimator import AzimuthEstimator
@@ -12,6 +13,9 @@ from primary_proc.estimators.trial_bursts import TrialBursts, trial_bursts
 from primary_proc.methods.detection_method import SettledMethod
 from primary_proc.methods.requirements import Requirements
 from primary_proc.normalisers.normaliser import Normaliser
+
+# A pause of the radar, or a rotation that comes back, must not cost the simulation again.
+_REMEMBERED = 4
 
 
 def calibrated(
@@ -26,12 +30,17 @@ def calibrated(
         What makes the estimator for a detector that is set up and a normaliser.
     """
 
+    @lru_cache(maxsize=_REMEMBERED)
+    def learnt(
+        method: SettledMethod, requirements: Requirements, loss_db: float
+    ) -> AzimuthEstimator:
+        noise = method.noise_probability
+        trial = trial_bursts(method, requirements, equivalent_cells(noise, loss_db))
+        return CalibratedEstimator(make(requirements, trial, noise), trial)
+
     def estimator(
         method: SettledMethod, requirements: Requirements, normaliser: Normaliser
     ) -> AzimuthEstimator:
-        noise = method.noise_probability
-        cells = equivalent_cells(noise, normaliser.loss_db(noise))
-        trial = trial_bursts(method, requirements, cells)
-        return CalibratedEstimator(make(requirements, trial, noise), trial)
+        return learnt(method, requirements, normaliser.loss_db(method.noise_probability))
 
     return estimator
