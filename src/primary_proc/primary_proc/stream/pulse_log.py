@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from radar_common.frames import TWO_PI, wrap_two_pi
+from radar_common.frames import wrap_two_pi
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -21,7 +21,8 @@ class PulseLog:
     def __init__(self) -> None:
         """Start with no pulse."""
         self.next = 0
-        self._pulses = np.zeros((2, 0))
+        self._azimuth = np.zeros(0)
+        self._time = np.zeros(0)
 
     def append(self, azimuth: FloatArray, time: FloatArray, keep: int) -> int:
         """Add pulses and forget those that are no longer needed.
@@ -34,12 +35,10 @@ class PulseLog:
         Returns:
             Number of the first pulse added.
         """
-        first, known = self.next, self._pulses.shape[1]
-        old = max(keep - (first - known), 0)
-        pulses = np.empty((2, known - old + len(azimuth)))
-        pulses[:, : known - old] = self._pulses[:, old:]
-        pulses[0, known - old :], pulses[1, known - old :] = azimuth, time
-        self._pulses = pulses
+        first = self.next
+        old = max(keep - (first - len(self._azimuth)), 0)
+        self._azimuth = np.concatenate([self._azimuth[old:], azimuth])
+        self._time = np.concatenate([self._time[old:], time])
         self.next += len(azimuth)
         return first
 
@@ -52,12 +51,12 @@ class PulseLog:
         Returns:
             (azimuth, time): rad in [0, 2 pi) and s, shape (n,).
         """
-        known = self._pulses.shape[1]
-        place = np.asarray(position) - (self.next - known)
-        place = np.minimum(np.maximum(place, 0.0), known - 1)
-        before = place.astype(np.int64)
-        here = self._pulses[:, before]
-        advance = self._pulses.take(before + 1, axis=1, mode="clip") - here
-        advance[0] -= TWO_PI * np.rint(advance[0] / TWO_PI)
-        here += (place - before) * advance
-        return wrap_two_pi(here[0]), here[1]
+        number = np.arange(self.next - len(self._azimuth), self.next)
+        azimuth = self._azimuth
+        if np.maximum.reduce(azimuth) - np.minimum.reduce(azimuth) > np.pi:
+            # North lies between the pulses; elsewhere there is nothing to unwrap.
+            azimuth = np.unwrap(azimuth)
+        return (
+            wrap_two_pi(np.interp(position, number, azimuth)),
+            np.interp(position, number, self._time),
+        )
