@@ -21,6 +21,7 @@ from radar_eval.published.result import PublishedResult
 from radar_eval.published.sequential import sequential_tests
 from radar_eval.published.time_gate import time_gate
 from radar_eval.published.time_quantisation import time_quantisation
+from radar_eval.published.track_detection import track_detections
 from radar_eval.published.weighted_detection import weighted_detection
 
 _BOOK = "S. Z. Kuzmin, Digital Processing of Radar Information (in Russian), Moscow 1967"
@@ -89,8 +90,13 @@ RESULTS = {
         ),
         PublishedResult(
             "kuzmin-4-false-tracks",
-            f"{_BOOK}, § 4.3.3, (4.16)-(4.25), figure 4.2",
+            f"{_BOOK}, § 4.3.3 and 4.3.4, (4.10), (4.16)-(4.28), figures 4.2 and 4.3",
             false_tracks,
+        ),
+        PublishedResult(
+            "kuzmin-4-track-detection",
+            f"{_BOOK}, § 4.3.5, (4.29)-(4.37), figures 4.4 and 4.5",
+            track_detections,
         ),
         PublishedResult("kuzmin-4-gates", f"{_BOOK}, § 4.7.2", gate_probabilities),
         PublishedResult(
