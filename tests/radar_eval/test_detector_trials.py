@@ -8,7 +8,9 @@ import pytest
 from scipy.stats import binom, norm, poisson
 
 from primary_proc.choices import METHODS
+from radar_eval.figures.sensitivity import draw_sensitivity
 from radar_eval.studies.detector_trials import TrialRadar, count_false_plots, try_targets
+from radar_eval.studies.sensitivity import measure_sensitivity
 
 CONFIDENCE = 0.999
 FALSE_STARTS = 2e-4
@@ -17,6 +19,9 @@ RESOLUTION = 1e-3
 DETECTORS = ["3/4-2", "3/3-2", "4/4-3", "3/5-3", *METHODS]
 SNR_DB = (3.0, 6.0, 9.0)
 STRONG_DB = (10.0, 14.0)
+STEEPNESS = (
+    0.08  # Of the detection probability at 0.9, a dB, where it is flattest: fast targets and 3/4-2.
+)
 LENGTHS = (9.0, 16.0)
 
 
@@ -66,3 +71,14 @@ def test_azimuths_are_as_accurate_as_predicted(radar, detector):
         chance = norm.isf((1.0 - CONFIDENCE) / 2.0) / np.sqrt(2.0 * len(error))
         assert abs(error.std() / std - 1.0) < 0.05 + chance, f"{snr_db} dB"
         assert abs(error.mean()) < 0.1 * std + 4.0 * std / np.sqrt(len(error)), f"{snr_db} dB"
+
+
+def test_the_losses_are_measured_and_drawn(radar):
+    """Each loss as measured is the predicted one within what the sample can tell, 0.1 dB of the calculator allowed."""
+    losses = measure_sensitivity(radar(16.0), ("3/4-2", "likelihood"))
+    assert next(loss.loss_db for loss in losses if loss.detector == "likelihood") == 0.0
+    for loss in losses:
+        chance = norm.isf((1.0 - CONFIDENCE) / 2.0) * np.sqrt(0.09 / loss.targets) / STEEPNESS
+        assert abs(loss.measured_loss_db - loss.loss_db) < 0.1 + chance, loss
+    picture = draw_sensitivity(losses)
+    assert [axes.get_title(loc="left") for axes in picture.axes] == ["steady target", "fast target"]
