@@ -114,7 +114,7 @@ class ExtractionChain:
         bits = self._quantiser.quantise(self._criterion.apply(ratios, azimuth))
         closed = self._whole(self._detector.detect(bits, first))
         self._going = self._detector.open_bursts()
-        self._meter.measure(closed, self._going, first, self._history)
+        self._meter.measure(closed, self._history)
         plots = self._plots(self._merger.add(closed, self._going, self._log.next - 1))
 
         self._health.drop("bursts that prolong an extended echo", self._merger.left_out)

@@ -118,7 +118,7 @@ def _detected(
     signal = history.room(pulses, 0)
     signal[...] = power
     meter = PowerMeter(normaliser.noise_scale, detector.memory)
-    meter.measure(bursts, bursts[:0], 0, history)
+    meter.measure(bursts, history)
     signal[...] = as_known
 
     target = truth[bursts["ring"]]

@@ -13,10 +13,10 @@ LARGEST_POWER = np.float32(1e9)
 
 
 class PowerMeter:
-    """Follows the highest ratio of each burst that is still open."""
+    """Looks up the ratios of a burst when it has ended; the history still has them."""
 
     def __init__(self, noise_scale: npt.NDArray[np.float64], memory: int) -> None:
-        """Start with nothing seen.
+        """Set up for a normaliser and a detector.
 
         Args:
             noise_scale: factor from a ratio to power over the mean noise power, shape (cells,).
@@ -24,41 +24,22 @@ class PowerMeter:
         """
         self._scale = noise_scale.astype(np.float32)
         self._memory = memory
-        self._running = np.zeros(len(noise_scale), np.float32)
 
-    def measure(
-        self,
-        closed: npt.NDArray[np.void],
-        going: npt.NDArray[np.void],
-        first: int,
-        history: RatioHistory,
-    ) -> None:
-        """Fill in the power of the bursts that have ended and follow those that have not.
+    def measure(self, closed: npt.NDArray[np.void], history: RatioHistory) -> None:
+        """Fill in the power of bursts.
 
         Args:
-            closed: bursts that ended within the pulses at hand; `power` is written.
-            going: bursts that have not ended.
-            first: number of the first of the pulses at hand.
-            history: ratios of these pulses and of those in the memory before them.
+            closed: bursts that have ended; `power` is written.
+            history: ratios from before the first of them began.
         """
-        ring = np.concatenate([closed["ring"], going["ring"]])
-        if not len(ring):
+        if not len(closed):
             return
-        count = len(closed)
-        start = np.concatenate([closed["start"], going["start"]])
-        oldest, cells = history.first, history.ratios.shape[1]
-        stop = np.full(len(ring), oldest + len(history.ratios) - 1)
-        stop[:count] = closed["end"]
-        carried = start < first
-        begin = np.where(carried, first, np.maximum(start - self._memory, oldest))
-        # A limit that has just become shorter ends a burst before these pulses.
-        length = np.maximum(stop - begin + 1, 1)
-        end = np.add.accumulate(length)
-        offset = end - length
-        place = np.repeat((begin - offset - oldest) * cells + ring, length)
+        ring, cells = closed["ring"], history.ratios.shape[1]
+        begin = np.maximum(closed["start"] - (self._memory + history.first), 0)
+        length = closed["end"] - (history.first - 1) - begin
+        stop = np.add.accumulate(length)
+        offset = stop - length
+        place = ((begin - offset) * cells + ring).repeat(length)
         place += np.arange(0, len(place) * cells, cells)
         peak = np.fmax.reduceat(history.ratios.reshape(-1)[place], offset)
-        peak = np.minimum(peak * self._scale[ring], LARGEST_POWER)
-        peak = np.where(carried, np.fmax(peak, self._running[ring]), peak)
-        closed["power"] = peak[:count]
-        self._running[going["ring"]] = peak[count:]
+        closed["power"] = np.minimum(peak * self._scale[ring], LARGEST_POWER)
