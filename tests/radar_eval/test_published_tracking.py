@@ -12,6 +12,7 @@ from radar_eval.published.result import to_digits
 NAMES = {
     "kuzmin-4-false-tracks": 80,
     "kuzmin-4-track-detection": 70,
+    "kuzmin-4-estimation": 230,
 }
 
 

@@ -14,6 +14,7 @@ from radar_eval.published.detection_probability import detection_probabilities
 from radar_eval.published.false_tracks import false_tracks
 from radar_eval.published.gates import gate_probabilities
 from radar_eval.published.level_quantisation import level_quantisation
+from radar_eval.published.polynomial_estimation import polynomial_estimation
 from radar_eval.published.program_detectors import program_detectors
 from radar_eval.published.pulse_in_gate import pulse_in_gate
 from radar_eval.published.required_snr import required_snr
@@ -97,6 +98,11 @@ RESULTS = {
             "kuzmin-4-track-detection",
             f"{_BOOK}, § 4.3.5, (4.29)-(4.37), figures 4.4 and 4.5",
             track_detections,
+        ),
+        PublishedResult(
+            "kuzmin-4-estimation",
+            f"{_BOOK}, § 4.4, (4.43)-(4.78), figures 4.6, 4.8 and 4.9",
+            polynomial_estimation,
         ),
         PublishedResult("kuzmin-4-gates", f"{_BOOK}, § 4.7.2", gate_probabilities),
         PublishedResult(
