@@ -6,6 +6,7 @@ from __future__ import annotations
 from radar_eval.errors import EvaluationError
 from radar_eval.published.accumulators import accumulators
 from radar_eval.published.alpha_beta import alpha_beta
+from radar_eval.published.amplitude_azimuth import amplitude_azimuth
 from radar_eval.published.automata import automata
 from radar_eval.published.azimuth_accuracy import azimuth_accuracies
 from radar_eval.published.burst_detection import burst_detection
@@ -15,6 +16,7 @@ from radar_eval.published.false_tracks import false_tracks
 from radar_eval.published.gates import gate_probabilities
 from radar_eval.published.level_quantisation import level_quantisation
 from radar_eval.published.polynomial_estimation import polynomial_estimation
+from radar_eval.published.potential_accuracy import potential_accuracies
 from radar_eval.published.program_detectors import program_detectors
 from radar_eval.published.pulse_in_gate import pulse_in_gate
 from radar_eval.published.required_snr import required_snr
@@ -35,6 +37,7 @@ RESULTS = {
             f"{_BOOK}, § 1.3, (1.34), (1.39), (1.45)-(1.51)",
             burst_detection,
         ),
+        PublishedResult("kuzmin-1-azimuth", f"{_BOOK}, § 1.4.3, (1.68)-(1.77)", amplitude_azimuth),
         PublishedResult("kuzmin-1-sequential", f"{_BOOK}, § 1.3", sequential_tests),
         PublishedResult(
             "kuzmin-2-quantisation",
@@ -60,6 +63,11 @@ RESULTS = {
             "kuzmin-3-weighted",
             f"{_BOOK}, § 3.1, (3.7)-(3.17), figures 3.3 and 3.4",
             weighted_detection,
+        ),
+        PublishedResult(
+            "kuzmin-3-potential-accuracy",
+            f"{_BOOK}, § 3.1.4-3.1.6, (3.18)-(3.35), figure 3.7",
+            potential_accuracies,
         ),
         PublishedResult(
             "kuzmin-3-automata", f"{_BOOK}, § 3.2.3-3.2.5, Tables 3.6-3.11, (3.46)", automata
