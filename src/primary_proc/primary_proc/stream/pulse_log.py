@@ -51,12 +51,13 @@ class PulseLog:
         Returns:
             (azimuth, time): rad in [0, 2 pi) and s, shape (n,).
         """
+        place = np.asarray(position, dtype=float)
         number = np.arange(self.next - len(self._azimuth), self.next)
         azimuth = self._azimuth
         if np.maximum.reduce(azimuth) - np.minimum.reduce(azimuth) > np.pi:
             # North lies between the pulses; elsewhere there is nothing to unwrap.
             azimuth = np.unwrap(azimuth)
         return (
-            wrap_two_pi(np.interp(position, number, azimuth)),
-            np.interp(position, number, self._time),
+            wrap_two_pi(np.interp(place, number, azimuth)),
+            np.interp(place, number, self._time),
         )
