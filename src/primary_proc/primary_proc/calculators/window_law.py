@@ -17,7 +17,9 @@ FloatArray = npt.NDArray[np.float64]
 
 _FINEST = 1500
 _STEPS_PER_CHANGE = 8.0
+_STEPS_PER_SUM = 16.0
 _SPREAD = 10.0
+_NOTHING = 1e-300
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +69,8 @@ class StartRate:
         seldom = np.flatnonzero(falling <= probability)
         if not len(seldom) or falling[seldom[0]] <= 0.0 or not seldom[0]:
             raise ValueError(
-                f"no threshold is crossed with a probability of {probability:.3g} per position; "
-                f"{falling[0]:.3g} is the most"
+                f"no threshold of the sum is crossed with a probability of {probability:.3g} per position; "
+                f"it can be {falling[falling > 0.0].min():.3g} to {falling[0]:.3g}"
             )
         index = top + int(seldom[0])
         if self.whole:
@@ -120,11 +122,17 @@ def start_rate(scores: npt.ArrayLike, probability: npt.ArrayLike) -> StartRate:
     if whole:
         span = int(max(np.clip(side * change, 0.0, None).max(axis=1).sum() for side in (1, -1)))
         return _rate_of(now, change, chance, 1.0, int(top.sum()) + 1, 2 * span + 1, True)
-    mean = change @ chance
-    spread = float(np.sqrt((np.square(change) @ chance - np.square(mean)).sum()))
-    step = spread / _STEPS_PER_CHANGE
+    step = _spread(change, chance) / _STEPS_PER_CHANGE
     width = 2 * int(_SPREAD * _STEPS_PER_CHANGE) + 1
-    return _rate_of(now, change, chance, step, _reach(now, chance, step), width, False)
+    # The sum itself varies more slowly than it changes from pulse to pulse.
+    stride = max(1, int(_spread(now, chance) / (_STEPS_PER_SUM * step)))
+    reach = _reach(now, chance, stride * step)
+    return _rate_of(now, change, chance, step, reach, width, False, stride)
+
+
+def _spread(scores: FloatArray, chance: FloatArray) -> float:
+    """Standard deviation of a sum of independent scores."""
+    return float(np.sqrt((np.square(scores) @ chance - np.square(scores @ chance)).sum()))
 
 
 def _equal_weights(score: FloatArray, chance: FloatArray, pulses: int) -> StartRate:
@@ -162,10 +170,12 @@ def _rate_of(
     sums: int,
     changes: int,
     whole: bool,
+    stride: int = 1,
 ) -> StartRate:
-    """Joint law of a sum and its change since the position before, and from it the rate."""
+    """Joint law of a sum, in strides of steps, and its change since the position before; from it the rate."""
     sums += sums % 2
-    turn_sum = 2.0 * np.pi / (sums * step) * np.arange(sums // 2 + 1)
+    spacing = stride * step
+    turn_sum = 2.0 * np.pi / (sums * spacing) * np.arange(sums // 2 + 1)
     turn_change = 2.0 * np.pi * np.fft.fftfreq(changes) / step
     joint = np.ones((len(turn_sum), changes), complex)
     for score, moved in zip(now, change, strict=True):
@@ -174,9 +184,17 @@ def _rate_of(
     law = np.fft.irfft(np.fft.ifft(joint, axis=1), n=sums, axis=0)
     # A rise by d crosses the thresholds that lie within d under the sum reached.
     rises = np.arange(1, changes // 2 + 1)
-    above = np.zeros((sums + len(rises), len(rises)))
+    room = rises[-1] // stride + 2
+    above = np.zeros((sums + room, len(rises)))
     above[:sums] = np.cumsum(law[::-1, rises], axis=0)[::-1]
-    ahead = above[np.arange(sums)[:, None] + rises, np.arange(len(rises))]
+    column = np.arange(len(rises))
+    past, part = np.divmod(rises, stride)
+    row = np.arange(sums)[:, None] + past
+    near, far = above[row, column], above[row + 1, column]
+    if stride > 1:
+        # Between two sums the tail falls off exponentially.
+        near, far = np.maximum(near, _NOTHING), np.maximum(far, _NOTHING)
+    ahead = near * (far / near) ** (part / stride) if stride > 1 else near
     probability = np.maximum((above[:sums] - ahead).sum(axis=1), 0.0)
-    threshold = np.arange(sums, dtype=float) * step
-    return StartRate(threshold if whole else threshold - step / 2.0, probability, whole)
+    threshold = np.arange(sums, dtype=float) * spacing
+    return StartRate(threshold if whole else threshold - spacing / 2.0, probability, whole)

@@ -19,7 +19,8 @@ from primary_proc.methods.window import Window
 
 FloatArray = npt.NDArray[np.float64]
 
-_DRAWN, _KEPT = 30_000, 6_000
+_DRAWN, _BATCHES = 15_000, 12
+_ENOUGH = 1_500
 _SEED = 1967
 
 
@@ -48,7 +49,7 @@ def noise_bursts(window: Window, gap: int) -> NoiseBursts:
         gap: pulses between two bursts that still make one plot.
 
     Returns:
-        What they do; shares come with a standard error of about 0.01.
+        What they do; shares come with a standard error of about 0.01, of a register of 100 pulses and more 0.03.
     """
     generator = np.random.default_rng(_SEED)
     chances = window.level_chances
@@ -113,12 +114,20 @@ def _first_windows(
     """Levels of the pulses up to a burst's start, shape (pulses + 1, n), and the weights of the samples."""
     tilted = np.exp(tilt * (scores - scores.max(axis=1)[:, None])) * probability
     tilted /= tilted.sum(axis=1)[:, None]
-    level = _levels(np.concatenate([probability[None], tilted]), _DRAWN, generator)
+    law = np.concatenate([probability[None], tilted])
     place = np.arange(window.pulses)[:, None]
-    now = scores[place, level[1:]].sum(axis=0)
-    before = scores[place, level[:-1]].sum(axis=0)
-    starts = np.flatnonzero((now >= window.threshold) & (before < window.threshold))[:_KEPT]
-    return level[:, starts], np.exp(-tilt * (now[starts] - window.threshold))
+    found, weights, enough = [], [], 0
+    for _ in range(_BATCHES):
+        level = _levels(law, _DRAWN, generator)
+        now = scores[place, level[1:]].sum(axis=0)
+        before = scores[place, level[:-1]].sum(axis=0)
+        starts = np.flatnonzero((now >= window.threshold) & (before < window.threshold))
+        found.append(level[:, starts])
+        weights.append(np.exp(-tilt * (now[starts] - window.threshold)))
+        enough += len(starts)
+        if enough >= _ENOUGH:
+            break
+    return np.concatenate(found, axis=1), np.concatenate(weights)
 
 
 def _levels(
