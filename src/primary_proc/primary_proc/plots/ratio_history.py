@@ -10,6 +10,8 @@ from primary_proc.normalisers.normaliser import Normaliser
 
 FloatArray = npt.NDArray[np.float64]
 
+_LEAST = np.finfo(float).tiny
+
 
 class RatioHistory:
     """Keeps what the open and waiting bursts may still need; an `Envelopes`.
@@ -72,11 +74,12 @@ class RatioHistory:
         Returns:
             Envelope over the noise's sigma, shape (n, 2 reach + 1).
         """
-        row = pulse[:, None] - self.first + np.arange(-reach, reach + 1)
+        row = (pulse - self.first)[:, None] + np.arange(-reach, reach + 1)
         stored = (row >= 0) & (row < len(self.ratios))
-        column = np.broadcast_to(ring[:, None], row.shape)
-        envelope = np.zeros(row.shape)
-        ratio = np.nan_to_num(self.ratios[row[stored], column[stored]].astype(float))
-        chance = self._normaliser.exceedance(ratio, column[stored])
-        envelope[stored] = np.sqrt(-2.0 * np.log(np.maximum(chance, np.finfo(float).tiny)))
-        return envelope
+        column = np.broadcast_to(ring[:, None], row.shape).reshape(-1)
+        place = np.where(stored, row, 0).reshape(-1) * self.ratios.shape[1] + column
+        ratio = self.ratios.reshape(-1)[place].astype(float)
+        # A ratio that is no number comes out as one that noise exceeds for certain.
+        chance = np.fmin(self._normaliser.exceedance(ratio, column), 1.0)
+        envelope = np.sqrt(-2.0 * np.log(np.maximum(chance, _LEAST))).reshape(row.shape)
+        return np.where(stored, envelope, 0.0)
