@@ -10,6 +10,8 @@ from radar_eval.published.registry import RESULTS
 from radar_eval.published.result import to_digits
 
 NAMES = {
+    "kuzmin-4-alpha-beta": 60,
+    "kuzmin-4-alpha-beta-dynamics": 180,
     "kuzmin-4-false-tracks": 80,
     "kuzmin-4-track-detection": 70,
     "kuzmin-4-estimation": 230,

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from radar_eval.published.result import Row, to_digits
+from radar_eval.published.sequential_gains import sequential_gains
 from secondary_proc.motion import predict_covariance, two_point_state
 from secondary_proc.smoothing.alpha_beta import AlphaBetaSmoother, growing_coefficients
 from secondary_proc.smoothing.interface import Measured
@@ -28,7 +29,8 @@ def alpha_beta() -> Iterator[Row]:
     """Compute coefficients, weights and errors.
 
     Yields:
-        The table of figure 4.10, the weights of n = 3 (figure 4.6) and 6, the error of the prediction (4.65).
+        The table of figure 4.10, the weights of n = 3 (figure 4.6) and 6, the error of the prediction (4.65); the
+        other sequential filters.
     """
     alpha, beta = growing_coefficients(np.arange(2, 11))
     for name, ours, published in (("alpha", alpha, _ALPHA), ("beta", beta, _BETA)):
@@ -56,6 +58,7 @@ def alpha_beta() -> Iterator[Row]:
     for n, printed in _PREDICTED_STD.items():
         label = f"error of the next point over that of a plot after {n} plots (4.65)"
         yield Row(label, printed, printed, _smooth(n)[2], to_digits(printed))
+    yield from sequential_gains()
 
 
 def _smooth(n: int) -> tuple[FloatArray, FloatArray, float]:

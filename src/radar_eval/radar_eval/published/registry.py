@@ -6,6 +6,7 @@ from __future__ import annotations
 from radar_eval.errors import EvaluationError
 from radar_eval.published.accumulators import accumulators
 from radar_eval.published.alpha_beta import alpha_beta
+from radar_eval.published.alpha_beta_dynamics import alpha_beta_dynamics
 from radar_eval.published.amplitude_azimuth import amplitude_azimuth
 from radar_eval.published.automata import automata
 from radar_eval.published.azimuth_accuracy import azimuth_accuracies
@@ -94,8 +95,13 @@ RESULTS = {
         ),
         PublishedResult(
             "kuzmin-4-alpha-beta",
-            f"{_BOOK}, § 4.4.3 and 4.5.2, (4.49)-(4.55), (4.82)-(4.87), figures 4.6 and 4.10",
+            f"{_BOOK}, § 4.4.3, 4.5.2, 4.5.3, (4.49)-(4.55), (4.82)-(4.91), figures 4.6, 4.10-4.12",
             alpha_beta,
+        ),
+        PublishedResult(
+            "kuzmin-4-alpha-beta-dynamics",
+            f"{_BOOK}, § 4.5.4, (4.92)-(4.112), figures 4.13-4.16",
+            alpha_beta_dynamics,
         ),
         PublishedResult(
             "kuzmin-4-false-tracks",
