@@ -57,7 +57,8 @@ class CriterionControl:
         self._new: list[tuple[FloatArray, FloatArray]] = []
         self._plots = np.zeros((zones.sectors, len(zones)), np.int64)
         self._factors: dict[int, Ratios] = {}
-        self._fewest = 0.0
+        # The first report says that nothing is raised; without news there is no other.
+        self._reported = True
         self.restart()
 
     @property
@@ -76,6 +77,7 @@ class CriterionControl:
         self._examiner = Examiner(design, normaliser, pulses)
         self._expected = design.method.false_starts * pulses * self._zones.widths
         self._fewest = _WHOLE * pulses
+        self._half_turn = pulses * self._zones.sectors / 2
         # Plots come up to two longest bursts after their azimuth, and not before the end of the pulses at hand.
         latest = 2 * design.longest + design.requirements.gap + _PULSES_AT_HAND
         sectors = self._zones.sectors
@@ -103,7 +105,8 @@ class CriterionControl:
             return ratios
         seen = ratios
         for sector, begin, end in self._runs(azimuth):
-            self._follow(sector)
+            if sector != self._sector:
+                self._follow(sector)
             if len(self._zone):
                 self._kept.append(ratios[begin:end, self._cells])
             if self._factor is not None:
@@ -124,10 +127,10 @@ class CriterionControl:
     def _runs(self, azimuth: FloatArray) -> list[tuple[int, int, int]]:
         """Sectors of the pulses, with the first pulse in each and the first after it."""
         scale, sectors = self._sectors_per_rad, self._zones.sectors
-        first, last = (int(azimuth[i] * scale + _ROUNDING) % sectors for i in (0, -1))
-        if first == last and len(azimuth) < self._fewest * sectors / 2:
+        first = int(float(azimuth[0]) * scale + _ROUNDING)
+        if first == int(float(azimuth[-1]) * scale + _ROUNDING) and len(azimuth) < self._half_turn:
             # The rule, and ten times faster than looking at every pulse.
-            return [(first, 0, len(azimuth))]
+            return [(first % sectors, 0, len(azimuth))]
         sector = (azimuth * scale + _ROUNDING).astype(np.int64) % sectors
         bounds = [0, *(np.flatnonzero(np.diff(sector)) + 1).tolist(), len(sector)]
         return [(int(sector[i]), i, j) for i, j in pairwise(bounds)]
@@ -161,7 +164,8 @@ class CriterionControl:
         plots[behind] = self._plots[behind]
         self._plots[behind] = 0
         self._raises.suspect(plots, self._expected)
-        self._report()
+        if self._limit is not None or self._factors or self._reported:
+            self._report()
 
     def _sort_plots(self) -> None:
         """Sort the plots that have come into their zones."""
@@ -170,7 +174,8 @@ class CriterionControl:
         cell, azimuth = map(np.concatenate, zip(*self._new, strict=True))
         self._new = []
         sector = self._zones.sector(azimuth)
-        np.add.at(self._plots, (sector, self._zones.zone(cell)), 1)
+        place = sector * len(self._zones) + self._zones.zone(cell)
+        np.add.at(self._plots.reshape(-1), place, 1)
         if self._limit is not None:
             self._limit.add(sector)
 
@@ -190,6 +195,7 @@ class CriterionControl:
             self._factors[self._sector] = gain.astype(np.float32)
 
     def _report(self) -> None:
+        self._reported = bool(self._factors)
         raise_db = self.raise_db
         share = (raise_db > 0.0) @ self._zones.widths / self._zones.bounds[-1]
         watch = self._health.watch

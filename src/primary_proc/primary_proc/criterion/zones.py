@@ -66,7 +66,7 @@ class Zones:
         Returns:
             Number of the zone within its sector, same shape.
         """
-        return self._zone_of[np.clip(np.asarray(cell).astype(np.int64), 0, len(self._zone_of) - 1)]
+        return self._zone_of.take(np.asarray(cell).astype(np.int64), mode="clip")
 
     def cells(self, zone: npt.NDArray[np.integer]) -> tuple[npt.NDArray[np.int64], npt.NDArray]:
         """List the range cells of some zones.

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every study that the command `study` knows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from radar_eval.errors import EvaluationError
+from radar_eval.studies.clutter import study_clutter
+from radar_eval.studies.sensitivity import study_sensitivity
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """A measurement of the packages, with pictures.
+
+    Attributes:
+        name: by which it is called.
+        title: one line for people.
+        run: takes the folder for pictures and gives the numbers.
+    """
+
+    name: str
+    title: str
+    run: Callable[[Path], dict[str, Any]]
+
+
+STUDIES: dict[str, Study] = {
+    study.name: study
+    for study in [
+        Study(
+            "clutter",
+            "false plots and detected targets in clutter, by normaliser and criterion control",
+            study_clutter,
+        ),
+        Study(
+            "sensitivity",
+            "what every detector loses against the ideal integrator, predicted and measured",
+            study_sensitivity,
+        ),
+    ]
+}
+"""Studies by their names."""
+
+
+def find_study(name: str) -> Study:
+    """Find a study.
+
+    Args:
+        name: of it.
+
+    Returns:
+        The study.
+
+    Raises:
+        EvaluationError: there is none of that name.
+    """
+    if name not in STUDIES:
+        raise EvaluationError(f"no study {name!r}; there are {', '.join(STUDIES)}")
+    return STUDIES[name]
