@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -41,10 +42,10 @@ class SumLaw:
             spread: its standard deviation.
         """
         self._mean, self._spread = mean, spread
-        step = np.pi / (2.0 * _REACH * spread)
+        step = math.pi / (2.0 * _REACH * spread)
         count = 512
         while True:
-            frequency = (np.arange(count) + 0.5) * step
+            frequency = np.arange(0.5, count, dtype=float) * step
             value = characteristic(frequency)
             if abs(value[-1]) < _LEAST or count >= _MOST_FREQUENCIES:
                 break

@@ -112,9 +112,9 @@ def _normal_approximation() -> Iterator[Row]:
 
 
 def _second_threshold() -> Iterator[Row]:
-    for pulses, expected in ((16, 6), (11, 5)):
+    for pulses, expected in ((16, 6.0), (11, 5.0)):
         ours = float(kuzmin_threshold(pulses))
-        yield Row(f"(3.17): second threshold, N_0 = {pulses}", float(expected), expected, ours, 0.0)
+        yield Row(f"(3.17): second threshold, N_0 = {pulses}", expected, expected, ours, 0.0)
     for count, (noise, threshold, *needed) in _REQUIRED.items():
         at = f"figure 3.3, N_0 = 16, P_fa = 1e-5, second threshold {count}"
         p_n = one_probability(count, 16, _FALSE_ALARM)
