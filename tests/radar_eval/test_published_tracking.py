@@ -10,6 +10,7 @@ from radar_eval.published.registry import RESULTS
 from radar_eval.published.result import to_digits
 
 NAMES = {
+    "kuzmin-4-track-parameters": 90,
     "kuzmin-4-alpha-beta": 60,
     "kuzmin-4-alpha-beta-dynamics": 180,
     "kuzmin-4-false-tracks": 80,

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.signal import lfilter
 
-from radar_eval.published.result import Row, to_digits
+from radar_eval.published.result import Row
 from secondary_proc.calculators.alpha_beta_dynamics import (
     OUTPUTS,
     dynamic_error,
@@ -179,6 +179,4 @@ def _optima() -> Iterator[Row]:
                 (found.alpha, found.beta, found.error),
                 strict=True,
             ):
-                yield Row(
-                    f"{what}: {quantity}, {equation}", None, value, ours, to_digits(value) + 5e-5
-                )
+                yield Row(f"{what}: {quantity}, {equation}", None, value, ours, 5.1e-5)

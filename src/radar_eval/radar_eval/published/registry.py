@@ -26,6 +26,7 @@ from radar_eval.published.sequential import sequential_tests
 from radar_eval.published.time_gate import time_gate
 from radar_eval.published.time_quantisation import time_quantisation
 from radar_eval.published.track_detection import track_detections
+from radar_eval.published.track_parameters import track_parameters
 from radar_eval.published.weighted_detection import weighted_detection
 
 _BOOK = "S. Z. Kuzmin, Digital Processing of Radar Information (in Russian), Moscow 1967"
@@ -117,6 +118,11 @@ RESULTS = {
             "kuzmin-4-estimation",
             f"{_BOOK}, § 4.4, (4.43)-(4.78), figures 4.6, 4.8 and 4.9",
             polynomial_estimation,
+        ),
+        PublishedResult(
+            "kuzmin-4-track-parameters",
+            f"{_BOOK}, § 4.6, (4.113)-(4.136), tables 4.1-4.3, figures 4.17-4.24",
+            track_parameters,
         ),
         PublishedResult("kuzmin-4-gates", f"{_BOOK}, § 4.7.2", gate_probabilities),
         PublishedResult(
