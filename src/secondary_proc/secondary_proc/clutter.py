@@ -7,6 +7,8 @@ number per area falls as one over the range (Kuzmin 1967, 4.10).
 
 from __future__ import annotations
 
+from math import exp
+
 import numpy as np
 import numpy.typing as npt
 
@@ -38,7 +40,8 @@ class FalsePlotDensity:
         Args:
             ranges: metres, shape (n,).
         """
-        self._counts += np.bincount(self._ring(ranges), minlength=self._rings)
+        if len(ranges):
+            self._counts += np.bincount(self._ring(ranges), minlength=self._rings)
 
     def forget(self, scans: float) -> None:
         """Let time pass.
@@ -46,7 +49,7 @@ class FalsePlotDensity:
         Args:
             scans: turns of the antenna since the last call.
         """
-        keep = np.exp(-min(scans, 3.0) / _MEMORY_SCANS)
+        keep = exp(-min(scans, 3.0) / _MEMORY_SCANS)
         self._counts *= keep
         self._scans = keep * self._scans + _MEMORY_SCANS * (1.0 - keep)
 
@@ -64,8 +67,10 @@ class FalsePlotDensity:
         Returns:
             False plots per square metre and scan, positive, shape (n,).
         """
-        per_ring = np.maximum(self._counts[self._ring(ranges)] / self._scans, _LEAST_PER_RING)
-        return per_ring / (2.0 * np.pi * RING * np.maximum(ranges, 1.0))
+        counts = np.maximum(self._counts[self._ring(ranges)], _LEAST_PER_RING * self._scans)
+        counts /= np.maximum(ranges, 1.0)
+        counts /= 2.0 * np.pi * RING * self._scans
+        return counts
 
     def _ring(self, ranges: FloatArray) -> npt.NDArray[np.intp]:
-        return np.clip(ranges / RING, 0, self._rings - 1).astype(np.intp)
+        return np.minimum(ranges / RING, self._rings - 1).astype(np.intp)

@@ -12,9 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from secondary_proc.motion import (
-    inverse_2x2,
+    normalised_square,
     predict_position_covariance,
-    quadratic_form,
     trace,
 )
 from secondary_proc.neighbours import neighbour_pairs
@@ -25,6 +24,7 @@ FloatArray = npt.NDArray[np.float64]
 IndexArray = npt.NDArray[np.intp]
 
 _MOST_NEIGHBOURS = 4_000_000
+_FEW_PAIRS = 256
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +70,31 @@ def gate(
     """
     if not len(tracks):
         return Gated(tracks, tracks, np.zeros(0), np.zeros(0), 0)
+    row, plot, skipped = _near_pairs(store, tracks, plots, sigmas, noise_density)
+    track = tracks[row]
+    seconds = plots.time[plot] - store["time"][track]
+    apart = seconds >= shortest
+    if not apart.all():
+        track, plot, seconds = track[apart], plot[apart], seconds[apart]
+    state = store["state"][track]
+    difference = plots.position[plot] - state[:, :2] - state[:, 2:] * seconds[:, None]
+    expected = predict_position_covariance(store["covariance"][track], seconds, noise_density)
+    expected += plots.covariance[plot]
+    distance_squared, determinant = normalised_square(difference, expected)
+    inside = np.flatnonzero(distance_squared <= sigmas**2)
+    return Gated(
+        track[inside], plot[inside], distance_squared[inside], determinant[inside], skipped
+    )
+
+
+def _near_pairs(
+    store: TrackStore, tracks: IndexArray, plots: Plots, sigmas: float, noise_density: float
+) -> tuple[IndexArray, IndexArray, int]:
+    total = len(tracks) * len(plots)
+    if total <= _FEW_PAIRS:
+        # To look for neighbours would cost more than to try them all.
+        row, plot = np.divmod(np.arange(total), len(plots))
+        return row, plot, 0
     begin, end = plots.time[0], plots.time[-1]
     state, covariance = store["state"][tracks], store["covariance"][tracks]
     seconds = 0.5 * (begin + end) - store["time"][tracks]
@@ -79,16 +104,4 @@ def gate(
     travel = np.hypot(state[:, 2], state[:, 3]) * 0.5 * (end - begin)
     # The predicted error grows over half a slice; a tenth covers it, as slices are short against the period.
     radius = float((1.1 * sigmas * np.sqrt(spread) + travel).max(initial=0.0))
-    row, plot, skipped = neighbour_pairs(centre, plots.position, radius, _MOST_NEIGHBOURS)
-    seconds = plots.time[plot] - store["time"][tracks[row]]
-    apart = seconds >= shortest
-    row, plot, seconds = row[apart], plot[apart], seconds[apart]
-    difference = plots.position[plot] - state[row, :2] - state[row, 2:] * seconds[:, None]
-    expected = predict_position_covariance(covariance[row], seconds, noise_density)
-    expected += plots.covariance[plot]
-    inverse, determinant = inverse_2x2(expected)
-    distance_squared = quadratic_form(difference, inverse)
-    inside = distance_squared <= sigmas**2
-    return Gated(
-        tracks[row[inside]], plot[inside], distance_squared[inside], determinant[inside], skipped
-    )
+    return neighbour_pairs(centre, plots.position, radius, _MOST_NEIGHBOURS)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from radar_common.frames import wrap_two_pi
+from radar_common.frames import TWO_PI, wrap_two_pi
 from radar_common.health import Health
 from secondary_proc.plots import (
     AZIMUTH,
@@ -28,6 +28,19 @@ LONGEST_OFFSET = 60.0
 LARGEST_RANGE_STD = 10e3
 LARGEST_AZIMUTH_STD = 0.5
 
+_TAKEN_OVER = (
+    (RANGE, "range"),
+    (AZIMUTH, "azimuth"),
+    (RANGE_STD, "range_std"),
+    (AZIMUTH_STD, "azimuth_std"),
+    (STRENGTH, "snr_db"),
+)
+_LOWEST = np.zeros(QUEUE_COLUMNS)
+_LOWEST[TIME], _LOWEST[RANGE] = -LONGEST_OFFSET, np.nextafter(0.0, 1.0)
+_HIGHEST = np.zeros(QUEUE_COLUMNS)
+_HIGHEST[TIME], _HIGHEST[AZIMUTH] = LONGEST_OFFSET, np.nextafter(TWO_PI, 0.0)
+_HIGHEST[RANGE_STD], _HIGHEST[AZIMUTH_STD] = LARGEST_RANGE_STD, LARGEST_AZIMUTH_STD
+
 
 def check(
     source: npt.NDArray[np.void], stamp: float, parameters: TrackerParameters, health: Health
@@ -46,17 +59,25 @@ def check(
         Plots as the queue keeps them, shape (m, QUEUE_COLUMNS), m <= n.
     """
     rows = np.empty((len(source), QUEUE_COLUMNS))
-    offset = source["time_offset"]
-    rows[:, TIME] = stamp + offset
-    rows[:, RANGE] = source["range"]
-    rows[:, AZIMUTH] = source["azimuth"]
+    rows[:, TIME] = offset = source["time_offset"]
+    for column, name in _TAKEN_OVER:
+        rows[:, column] = source[name]
+    lowest = _LOWEST.copy()
+    lowest[RANGE_STD] = parameters.minimum_range_std
+    lowest[AZIMUTH_STD] = parameters.minimum_azimuth_std
+    highest = _HIGHEST.copy()
+    highest[RANGE] = parameters.maximum_range
+    # Most messages hold nothing to object to; then two comparisons are enough.
+    if ((rows >= lowest) & (rows <= highest))[:, :STRENGTH].all():
+        rows[:, TIME] += stamp
+        return rows
+    rows[:, TIME] += stamp
     rows[:, RANGE_STD] = _error(
         source["range_std"], parameters.default_range_std, parameters.minimum_range_std
     )
     rows[:, AZIMUTH_STD] = _error(
         source["azimuth_std"], parameters.default_azimuth_std, parameters.minimum_azimuth_std
     )
-    rows[:, STRENGTH] = source["snr_db"]
     good = (
         (rows[:, RANGE] > 0.0)
         & (rows[:, RANGE] <= parameters.maximum_range)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,7 +36,8 @@ class PlotQueue:
         self._begun = False
         self._last_stamp = 0
         self._waiting = np.zeros((0, QUEUE_COLUMNS))
-        self._handed_out = np.zeros((0, QUEUE_COLUMNS))
+        self._handed_out: deque[FloatArray] = deque()
+        self._latest = -np.inf
         self._ripe_until = -np.inf
         self.now = -np.inf
         """Latest stamp in seconds since the first message: no plot much older than this will be accepted."""
@@ -75,26 +77,27 @@ class PlotQueue:
             The plots accepted, QUEUE_COLUMNS each, in order of time.
         """
         stamp = self.seconds(table.stamp)
-        before = self._waiting[:, TIME].max(initial=-np.inf)
+        before = float(self._waiting[-1, TIME]) if len(self._waiting) else -np.inf
         if stamp >= self.now:
             self.now, self._last_stamp = stamp, table.stamp
         self._ripe_until = max(self._ripe_until, self.now, before)
         if not len(table.rows):
             return self._waiting[:0]
         rows = check(table.rows, stamp, parameters, self._health)
-        late = rows[:, TIME] < self.now - period / 4
-        self._health.drop("plots older than the tracks", int(np.count_nonzero(late)))
-        rows = self._without_duplicates(rows[~late] if late.any() else rows)
+        times = rows[:, TIME]
+        if len(rows) and not self._is_news(times, self.now - period / 4):
+            rows = self._sorted_out(rows, self.now - period / 4)
         if not len(rows):
             return rows
-        latest = rows[:, TIME].max()
-        span = latest - min(rows[:, TIME].min(), self.now)
+        earliest, latest = float(rows[0, TIME]), float(rows[-1, TIME])
+        span = latest - min(earliest, self.now)
         rows = self._strongest(rows, parameters.maximum_plots * max(1.0, span / period))
-        rows = rows[np.argsort(rows[:, TIME], kind="stable")]
-        waiting = np.concatenate([self._waiting, rows])
-        if before > rows[0, TIME]:
-            waiting = waiting[np.argsort(waiting[:, TIME], kind="stable")]
-        self._waiting = waiting
+        if before > earliest:
+            waiting = np.concatenate([self._waiting, rows])
+            self._waiting = waiting[np.argsort(waiting[:, TIME], kind="stable")]
+        else:
+            self._waiting = np.concatenate([self._waiting, rows]) if len(self._waiting) else rows
+        self._latest = max(self._latest, latest)
         self._ripe_until = max(self._ripe_until, latest - period / 32)
         return rows
 
@@ -118,12 +121,14 @@ class PlotQueue:
         end = times[0] + longest
         if not everything:
             end = min(end, self._ripe_until)
-        ripe, seen = np.searchsorted(times, [end, end + ahead], side="right")
+        ripe, seen = times.searchsorted([end, end + ahead], side="right").tolist()
         taken = self._waiting[:seen]
         self._waiting = self._waiting[ripe:]
-        recent = self._handed_out[:, TIME] > self.now - 2 * longest
-        self._handed_out = np.concatenate([self._handed_out[recent], taken[:ripe]])
-        return taken, int(ripe)
+        while self._handed_out and self._handed_out[0][-1, TIME] <= self.now - 2 * longest:
+            self._handed_out.popleft()
+        if ripe:
+            self._handed_out.append(taken[:ripe])
+        return taken, ripe
 
     def take_also(self, which: npt.NDArray[np.intp]) -> None:
         """Hand out competitors as well, because a ripe plot's track chose them.
@@ -132,11 +137,21 @@ class PlotQueue:
             which: indices into the queue, that is, into the plots behind the ripe ones of the last `take`.
         """
         if len(which):
-            self._handed_out = np.concatenate([self._handed_out, self._waiting[which]])
+            self._handed_out.append(self._waiting[np.sort(which)])
             self._waiting = np.delete(self._waiting, which, axis=0)
 
+    def _is_news(self, times: FloatArray, oldest: float) -> bool:
+        # Ascending and later than all before: neither late nor known nor out of order.
+        return bool(times[0] > max(self._latest, oldest) and (times[1:] > times[:-1]).all())
+
+    def _sorted_out(self, rows: FloatArray, oldest: float) -> FloatArray:
+        late = rows[:, TIME] < oldest
+        self._health.drop("plots older than the tracks", int(np.count_nonzero(late)))
+        rows = self._without_duplicates(rows[~late] if late.any() else rows)
+        return rows[np.argsort(rows[:, TIME], kind="stable")]
+
     def _without_duplicates(self, rows: FloatArray) -> FloatArray:
-        known = np.concatenate([self._handed_out, self._waiting, rows])
+        known = np.concatenate([*self._handed_out, self._waiting, rows])
         times = np.sort(known[:, TIME])
         if not (times[1:] == times[:-1]).any():
             return rows
@@ -153,4 +168,4 @@ class PlotQueue:
         if len(rows) <= limit:
             return rows
         self._health.drop("plots over the limit of a scan", len(rows) - int(limit))
-        return rows[np.argsort(-rows[:, STRENGTH], kind="stable")[: int(limit)]]
+        return rows[np.sort(np.argsort(-rows[:, STRENGTH], kind="stable")[: int(limit)])]

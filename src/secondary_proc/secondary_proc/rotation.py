@@ -147,7 +147,7 @@ class Rotation:
         self._phase += self._rate * (centre - self._origin) + float(residuals.mean())
         self._rate += correction
         self._origin = centre
-        self._period = float(np.clip(TWO_PI / abs(self._rate), SHORTEST_PERIOD, LONGEST_PERIOD))
+        self._period = min(max(TWO_PI / abs(self._rate), SHORTEST_PERIOD), LONGEST_PERIOD)
 
     def _acquire(self) -> None:
         newest = self._times[-1]

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from radar_common.frames import TWO_PI, wrap_pi
-from secondary_proc.motion import FloatArray, predict_position_covariance, trace
+from radar_common.frames import TWO_PI
+from secondary_proc.motion import FloatArray, predict_position_variance
 
 _LEAST_MARGIN = 0.03
 _MOST_MARGIN = 0.25
@@ -42,11 +42,15 @@ def passage(
     Returns:
         (next, margin): seconds, shape (n,); the target may be found up to `margin` before and after `next`.
     """
-    last = state[:, :2] + state[:, 2:] * (crossing - time)[:, None]
-    later = last + state[:, 2:] * period
-    turn = wrap_pi(np.arctan2(later[:, 0], later[:, 1]) - np.arctan2(last[:, 0], last[:, 1]))
-    following = crossing + period * (1.0 + sense * turn / TWO_PI)
-    spread = trace(predict_position_covariance(covariance, following - time, noise_density))
-    distance = np.maximum(np.hypot(later[:, 0], later[:, 1]), 1.0)
-    width = sigmas * np.sqrt(spread) / distance / TWO_PI
-    return following, period * np.minimum(_LEAST_MARGIN + width, _MOST_MARGIN)
+    velocity = state[:, 2:]
+    last = state[:, :2] + velocity * (crossing - time)[:, None]
+    later = last + velocity * period
+    (x, y), (later_x, later_y) = last.T, later.T
+    # The angle between both directions, clockwise: never off by a turn, as a difference of azimuths would be.
+    turn = np.arctan2(later_x * y - later_y * x, later_x * x + later_y * y)
+    following = crossing + (period + turn * (period * sense / TWO_PI))
+    spread = predict_position_variance(covariance, following - time, noise_density)
+    width = np.sqrt(spread) / np.maximum(np.hypot(later_x, later_y), 1.0)
+    width *= sigmas / TWO_PI
+    width += _LEAST_MARGIN
+    return following, period * np.minimum(width, _MOST_MARGIN)

@@ -10,48 +10,61 @@ from radar_common.frames import polar_from_enu
 from radar_common.tables import TRACK
 from secondary_proc.motion import FloatArray, predict_covariance, predict_state
 from secondary_proc.plots import Plots
-from secondary_proc.track_store import TrackStore
+from secondary_proc.track_store import Columns
+
+Rows = npt.NDArray[np.void]
 
 
-def rows(
-    store: TrackStore,
-    tracks: npt.NDArray[np.intp],
-    *,
-    at: FloatArray | None = None,
-    noise_density: float = 0.0,
-) -> npt.NDArray[np.void]:
+_PACKED = np.dtype(
+    [
+        ("kinematic", "<f4", (21,)),  # x, y, z, vx, vy, covariance
+        ("id", "<u4"),
+        ("status", "u1"),
+        ("time", "<f8"),
+        ("velocity", "<f4", (2,)),  # speed, course
+        ("plot", "<f8", (2,)),  # range, azimuth
+        ("passages", "<u4", (2,)),  # hits, misses
+        ("age", "<f4"),
+        ("score", "<f4"),
+    ]
+)
+"""The bytes of TRACK with neighbours of one kind joined, because every field written costs a call of its own."""
+if _PACKED.itemsize != TRACK.itemsize:
+    raise AssertionError("the packed row of a track must have the layout of TRACK")
+
+
+def rows(tracks: Columns, *, at: FloatArray | None = None, noise_density: float = 0.0) -> Rows:
     """Write tracks as rows of the table.
 
     Args:
-        store: all tracks.
-        tracks: indices, shape (n,).
+        tracks: n of them.
         at: seconds to predict them to, shape (n,), for tracks without a plot; None for those that have just got one.
         noise_density: power spectral density of the acceleration for that prediction, m^2/s^3.
 
     Returns:
         Rows of dtype TRACK, shape (n,), in the radar's frame; `time_offset` still holds the tracker's time.
     """
-    out = np.zeros(len(tracks), TRACK)
-    state, covariance, time = (store[name][tracks] for name in ("state", "covariance", "time"))
-    out["plot_range"] = out["plot_azimuth"] = np.nan
+    out = np.zeros(len(tracks), _PACKED)
+    state, covariance, time = tracks.state, tracks.covariance, tracks.time
+    plot = out["plot"]
     if at is None:
-        out["plot_range"] = store["plot_range"][tracks]
-        out["plot_azimuth"] = store["plot_azimuth"][tracks]
+        plot[:, 0], plot[:, 1] = tracks.plot_range, tracks.plot_azimuth
     else:
+        plot[:] = np.nan
         covariance = predict_covariance(covariance, at - time, noise_density)
         state, time = predict_state(state, at - time), at
-    for column, name in enumerate(("x", "y", "vx", "vy")):
-        out[name] = state[:, column]
-    out["speed"], out["course"] = polar_from_enu(state[:, 2], state[:, 3])
-    out["covariance"] = covariance.reshape(-1, 16)
-    out["time_offset"] = time
-    out["age"] = time - store["born"][tracks]
-    for name in ("id", "status", "hits", "misses", "score"):
-        out[name] = store[name][tracks]
-    return out
+    kinematic, velocity, passages = out["kinematic"], out["velocity"], out["passages"]
+    kinematic[:, :2], kinematic[:, 3:5] = state[:, :2], state[:, 2:]
+    kinematic[:, 5:] = covariance.reshape(-1, 16)
+    velocity[:, 0], velocity[:, 1] = polar_from_enu(state[:, 2], state[:, 3])
+    passages[:, 0], passages[:, 1] = tracks.hits, tracks.misses
+    out["time"] = time
+    out["age"] = time - tracks.born
+    out["id"], out["status"], out["score"] = tracks.id, tracks.status, tracks.score
+    return out.view(TRACK)
 
 
-def first_rows(second: npt.NDArray[np.void], first: Plots) -> npt.NDArray[np.void]:
+def first_rows(second: Rows, first: Plots) -> Rows:
     """Write the first plot of tracks that their second plot has just opened.
 
     Args:

@@ -28,6 +28,7 @@ _RESTART = 5.0
 _CHANGE = 0.003
 _CONFIRMED_FIRST = 1e4
 _SECONDS_PER_HOUR = 3600.0
+_NO_ROWS = np.zeros(0, TRACK)
 
 
 class Tracker:
@@ -85,7 +86,8 @@ class Tracker:
         accepted = self._queue.put(plots, self.parameters, self._rotation.period)
         self.health.count("plots in", len(accepted))
         locks = self._rotation.locks
-        self._rotation.observe(accepted[:, TIME], accepted[:, AZIMUTH])
+        if len(accepted):
+            self._rotation.observe(accepted[:, TIME], accepted[:, AZIMUTH])
         if abs(self._rotation.period / self._tracks.period - 1.0) > _CHANGE:
             self._tracks.reconfigure(self.parameters, self._rotation)
         if self._rotation.locks > locks:
@@ -172,10 +174,13 @@ class Tracker:
                 GateGraph(
                     gated.track[likely],
                     gated.plot[likely],
-                    (weight + _CONFIRMED_FIRST * confirmed)[likely],
+                    weight[likely] + _CONFIRMED_FIRST * confirmed[likely],
                 )
             )
         ]
+        early = gated.plot[edges] >= ripe
+        if not np.count_nonzero(early):
+            return edges
         # A track that only plots still to come can interest waits for their competitors.
         urgent = np.zeros(len(self._tracks), bool)
         urgent[gated.track[gated.plot < ripe]] = True
@@ -208,11 +213,12 @@ class Tracker:
 
     def _table(self, out: list[Rows], stamp: int) -> Table:
         # Of equal dtypes; naming it spares numpy a promotion that costs more than the copy.
-        rows = np.concatenate(out, dtype=TRACK) if out else np.zeros(0, TRACK)
+        rows = np.concatenate([_NO_ROWS, *out], dtype=TRACK) if len(out) != 1 else out[0]
         if len(rows):
             rows["time_offset"] -= self._queue.seconds(stamp)
-            for name in ("x", "y", "z"):
-                rows[name] += getattr(self.parameters, f"radar_{name}")
+            rows["x"] += self.parameters.radar_x
+            rows["y"] += self.parameters.radar_y
+            rows["z"] += self.parameters.radar_z
             self._watch()
         return Table(stamp, rows, SITE_FRAME)
 

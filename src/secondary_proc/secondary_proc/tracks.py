@@ -9,17 +9,18 @@ import numpy as np
 import numpy.typing as npt
 
 from radar_common.health import Health
-from radar_common.tables import TRACK, TrackStatus
-from secondary_proc import score, track_table
+from radar_common.tables import TRACK
+from secondary_proc import track_table
 from secondary_proc.gates import Gated, gate
-from secondary_proc.initiation import INITIATIONS, Evidence
+from secondary_proc.initiation import INITIATIONS
 from secondary_proc.motion import FloatArray, noise_density, predict_state
 from secondary_proc.opening import first_state
+from secondary_proc.passages import ENDED, TENTATIVE, judge, take_misses, take_plots
 from secondary_proc.plots import Plots
 from secondary_proc.rotation import Rotation
 from secondary_proc.schedule import passage
-from secondary_proc.smoothing import SMOOTHERS, Measured
-from secondary_proc.track_store import TrackStore
+from secondary_proc.smoothing import SMOOTHERS
+from secondary_proc.track_store import Columns, TrackStore
 
 if TYPE_CHECKING:
     from secondary_proc.parameters import TrackerParameters
@@ -44,6 +45,7 @@ class Tracks:
         """
         self._health = health
         self._next_id = 1
+        self._soonest = np.inf
         self._store = TrackStore(np.dtype(float))
         self.reconfigure(parameters, rotation)
 
@@ -66,7 +68,7 @@ class Tracks:
             parameters.acceleration, parameters.manoeuvre_acceleration
         )
         self._store.set_memory(self._smoother.memory)
-        self._schedule(np.arange(len(self)))
+        self._schedule_all()
 
     def synchronise(self, now: float) -> None:
         """Date the last passages anew, after the rotation has been found again.
@@ -77,7 +79,7 @@ class Tracks:
         store = self._store
         moved = predict_state(store["state"], now - store["time"])[:, :2]
         store["crossing"][:] = self._rotation.last_passage(np.arctan2(*moved.T), now)
-        self._schedule(np.arange(len(store)))
+        self._schedule_all()
 
     def __len__(self) -> int:
         """Number of tracks, tentative ones included."""
@@ -97,7 +99,7 @@ class Tracks:
         Returns:
             Shape (n,).
         """
-        return self._store["status"][tracks] != TrackStatus.TENTATIVE
+        return self._store["status"][tracks] != TENTATIVE
 
     def gate(self, plots: Plots) -> Gated:
         """Find the plots in the gates of the tracks that the beam may find now.
@@ -138,39 +140,13 @@ class Tracks:
         Returns:
             Rows of these tracks.
         """
-        store = self._store
-        hits = store["hits"][tracks] + 1
-        smoothed = self._smoother.update(
-            Measured(
-                state=store["state"][tracks],
-                covariance=store["covariance"][tracks],
-                memory=store["memory"][tracks],
-                hits=hits,
-                seconds=plots.time - store["time"][tracks],
-                position=plots.position,
-                position_covariance=plots.covariance,
-                azimuth=plots.azimuth,
-            )
-        )
-        status = store["status"][tracks]
-        status[status == TrackStatus.COASTING] = TrackStatus.CONFIRMED
-        for name, values in (
-            ("state", smoothed.state),
-            ("covariance", smoothed.covariance),
-            ("memory", smoothed.memory),
-            ("hits", hits),
-            ("misses", 0),
-            ("time", plots.time),
-            ("crossing", plots.time),
-            ("plot_range", plots.range),
-            ("plot_azimuth", plots.azimuth),
-            ("score", store["score"][tracks] + gain),
-            ("status", status),
-        ):
-            store[name][tracks] = values
-        store["best"][tracks] = np.maximum(store["best"][tracks], store["score"][tracks])
+        columns = self._store.take(tracks)
+        take_plots(columns, plots, gain, self._smoother)
         self._health.count("plots in tracks", len(tracks))
-        return self._after_plot(tracks, threshold)
+        rows = self._after_plot(columns, threshold)
+        self._store.put(tracks, columns)
+        self._bury(columns)
+        return rows
 
     def open(
         self, first: Plots, second: Plots, gap: IndexArray, scores: FloatArray, threshold: float
@@ -202,8 +178,12 @@ class Tracks:
         tracks = self._store.append(columns, count)
         self._next_id += count
         self._health.count("tracks opened", count)
-        opened = track_table.first_rows(self._rows(tracks), first)
-        return np.concatenate([opened, self._after_plot(tracks, threshold)], dtype=TRACK)
+        new = self._store.take(tracks)
+        opened = track_table.first_rows(track_table.rows(new), first)
+        judged = self._after_plot(new, threshold)
+        self._store.put(tracks, new)
+        self._bury(new)
+        return np.concatenate([opened, judged], dtype=TRACK)
 
     def miss(self, until: float) -> list[Rows]:
         """Count a miss for every track that the beam has passed without a plot.
@@ -219,21 +199,18 @@ class Tracks:
             self._parameters.detection_probability,
             self._parameters.confirmed_misses,
         )
-        while len(late := np.flatnonzero(store["due"] < until)):
-            status = store["status"][late]
-            tentative = status == TrackStatus.TENTATIVE
-            store["misses"][late] += 1
-            store["score"][late] += score.miss(detection)
-            store["crossing"][late] = store["expected"][late]
-            spent = score.is_spent(store["best"][late], store["score"][late], allowed, detection)
-            worn = spent | (store["misses"][late] >= allowed)
-            status[~tentative] = np.where(worn, TrackStatus.ENDED, TrackStatus.COASTING)[~tentative]
-            store["status"][late] = status
-            self._health.count("misses of confirmed tracks", int(np.count_nonzero(~tentative)))
-            self._judge(late[tentative], found=False, threshold=np.inf)
-            self._schedule(late)
-            out.append(self._rows(late, at=store["crossing"][late]))
-            self._bury()
+        while self._soonest < until and len(late := np.flatnonzero(store["due"] < until)):
+            columns = store.take(late)
+            tentative = take_misses(columns, allowed, detection)
+            unsure = int(np.count_nonzero(tentative))
+            self._health.count("misses of confirmed tracks", len(late) - unsure)
+            if unsure:
+                self._judge(columns, tentative, found=False, threshold=np.inf)
+            self._schedule(columns)
+            out.append(track_table.rows(columns, at=columns.crossing, noise_density=self._quiet))
+            store.put(late, columns)
+            self._bury(columns)
+        self._soonest = store["due"].min(initial=np.inf)
         return out
 
     def end_all(self) -> Rows:
@@ -242,59 +219,58 @@ class Tracks:
         Returns:
             Their rows.
         """
-        self._store["status"][:] = TrackStatus.ENDED
-        rows = self._rows(np.arange(len(self)), at=self._store["time"].copy())
-        self._bury()
+        columns = self._store.take(np.arange(len(self)))
+        columns.status[:] = ENDED
+        rows = track_table.rows(columns, at=columns.time.copy(), noise_density=self._quiet)
+        self._store.put(np.arange(len(self)), columns)
+        self._bury(columns)
         return rows
 
-    def _after_plot(self, tracks: IndexArray, threshold: float) -> Rows:
-        self._schedule(tracks)
-        tentative = ~self.is_confirmed(tracks)
-        self._health.count("plots of confirmed tracks", int(np.count_nonzero(~tentative)))
-        if tentative.any():
-            self._judge(tracks[tentative], found=True, threshold=threshold)
-        rows = self._rows(tracks)
-        self._bury()
-        return rows
+    def _after_plot(self, columns: Columns, threshold: float) -> Rows:
+        self._schedule(columns)
+        tentative = columns.status == TENTATIVE
+        unsure = int(np.count_nonzero(tentative))
+        self._health.count("plots of confirmed tracks", len(columns) - unsure)
+        if unsure:
+            self._judge(columns, tentative, found=True, threshold=threshold)
+        return track_table.rows(columns)
 
-    def _judge(self, tracks: IndexArray, *, found: bool, threshold: float) -> None:
-        store = self._store
-        verdict = self._initiation.judge(
-            Evidence(
-                rule=store["rule"][tracks],
-                found=np.full(len(tracks), found),
-                hits=store["hits"][tracks],
-                misses=store["misses"][tracks],
-                score=store["score"][tracks],
-                threshold=threshold,
-            )
-        )
-        store["rule"][tracks] = verdict.rule
-        store["status"][tracks[verdict.confirmed]] = TrackStatus.CONFIRMED
-        store["status"][tracks[verdict.dropped]] = TrackStatus.ENDED
-        self._health.count("tracks confirmed", int(np.count_nonzero(verdict.confirmed)))
+    def _judge(
+        self,
+        columns: Columns,
+        tentative: npt.NDArray[np.bool_],
+        *,
+        found: bool,
+        threshold: float,
+    ) -> None:
+        confirmed = judge(columns, tentative, self._initiation, found=found, threshold=threshold)
+        self._health.count("tracks confirmed", confirmed)
 
-    def _schedule(self, tracks: IndexArray) -> None:
-        store = self._store
+    def _schedule(self, columns: Columns) -> None:
         following, margin = passage(
-            store["state"][tracks],
-            store["covariance"][tracks],
-            store["time"][tracks],
-            store["crossing"][tracks],
+            columns.state,
+            columns.covariance,
+            columns.time,
+            columns.crossing,
             period=self.period,
             sense=self._rotation.sense,
             sigmas=self._parameters.gate_sigmas,
             noise_density=self._manoeuvre,
         )
-        store["expected"][tracks] = following
-        store["opens"][tracks] = following - margin
-        store["due"][tracks] = following + margin
+        columns.expected[:] = following
+        columns.opens[:] = following - margin
+        columns.due[:] = due = following + margin
+        self._soonest = min(self._soonest, due.min(initial=np.inf))
 
-    def _rows(self, tracks: IndexArray, at: FloatArray | None = None) -> Rows:
-        return track_table.rows(self._store, tracks, at=at, noise_density=self._quiet)
+    def _schedule_all(self) -> None:
+        everything = np.arange(len(self))
+        columns = self._store.take(everything)
+        self._soonest = np.inf
+        self._schedule(columns)
+        self._store.put(everything, columns)
 
-    def _bury(self) -> None:
-        ended = self._store["status"] == TrackStatus.ENDED
-        if ended.any():
+    def _bury(self, changed: Columns) -> None:
+        if np.count_nonzero(changed["status"] == ENDED):
+            ended = self._store["status"] == ENDED
             self._health.count("tracks ended", int(np.count_nonzero(ended)))
             self._store.remove(ended)

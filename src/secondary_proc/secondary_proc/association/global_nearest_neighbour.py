@@ -28,11 +28,10 @@ def global_nearest_neighbour(graph: GateGraph) -> IndexArray:
     """
     if not len(graph.track):
         return np.zeros(0, np.intp)
-    alone = (np.bincount(graph.track)[graph.track] == 1) & (
-        np.bincount(graph.plot)[graph.plot] == 1
-    )
-    if alone.all():
+    on_track, on_plot = np.bincount(graph.track), np.bincount(graph.plot)
+    if on_track.max() == on_plot.max() == 1:
         return np.arange(len(graph.track))
+    alone = (on_track[graph.track] == 1) & (on_plot[graph.plot] == 1)
     contested = np.flatnonzero(~alone)
     chosen = contested[
         _assign(graph.track[contested], graph.plot[contested], graph.gain[contested])

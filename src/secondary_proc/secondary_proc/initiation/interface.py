@@ -26,7 +26,7 @@ class Evidence:
         threshold: of the score for the wanted rate of false tracks.
     """
 
-    rule: ByteArray
+    rule: npt.NDArray[np.integer]
     found: BoolArray
     hits: npt.NDArray[np.integer]
     misses: npt.NDArray[np.integer]
@@ -38,7 +38,7 @@ class Evidence:
 class Verdict:
     """What becomes of the tracks: new memory of the rule, confirmed, dropped; shapes (n,)."""
 
-    rule: ByteArray
+    rule: npt.NDArray[np.integer]
     confirmed: BoolArray
     dropped: BoolArray
 

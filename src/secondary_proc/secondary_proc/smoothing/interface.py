@@ -11,6 +11,9 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 
+_EYE = np.eye(4)
+_OBSERVED = np.eye(2, 4)
+
 
 @dataclass(frozen=True, slots=True)
 class Measured:
@@ -79,8 +82,9 @@ def joseph_update(
     Returns:
         P after the update, shape (n, 4, 4).
     """
-    keep = np.broadcast_to(np.eye(4), covariance.shape).copy()
-    keep[:, :, :2] -= gain
+    keep = _EYE - gain @ _OBSERVED
     updated = keep @ covariance @ keep.transpose(0, 2, 1)
     updated += gain @ position_covariance @ gain.transpose(0, 2, 1)
-    return 0.5 * (updated + updated.transpose(0, 2, 1))
+    updated += updated.transpose(0, 2, 1).copy()
+    updated *= 0.5
+    return updated

@@ -12,10 +12,10 @@ import numpy as np
 
 from secondary_proc.motion import (
     inverse_2x2,
+    normalised_square,
     predict_covariance,
-    predict_position_covariance,
     predict_state,
-    quadratic_form,
+    unit_noise,
 )
 from secondary_proc.smoothing.interface import Measured, Smoothed, joseph_update
 
@@ -48,17 +48,18 @@ class KalmanSmoother:
         Returns:
             The tracks at the time of their plots; memory is the manoeuvre's present intensity, 0 to 1.
         """
-        state = predict_state(measured.state, measured.seconds)
+        seconds, error = measured.seconds, measured.position_covariance
+        state = predict_state(measured.state, seconds)
         innovation = measured.position - state[:, :2]
-        spread = predict_position_covariance(measured.covariance, measured.seconds, self._quiet)
-        inverse, _ = inverse_2x2(spread + measured.position_covariance)
-        fresh = quadratic_form(innovation, inverse) > MANOEUVRE_THRESHOLD
+        covariance = predict_covariance(measured.covariance, seconds, self._quiet)
+        expected = covariance[:, :2, :2] + error
+        fresh = normalised_square(innovation, expected)[0] > MANOEUVRE_THRESHOLD
         intensity = np.where(fresh, 1.0, _FORGETTING * measured.memory)
-        density = self._quiet + (self._manoeuvre - self._quiet) * intensity
-        covariance = predict_covariance(measured.covariance, measured.seconds, density)
-        inverse, _ = inverse_2x2(covariance[:, :2, :2] + measured.position_covariance)
+        if np.count_nonzero(intensity):
+            more = (self._manoeuvre - self._quiet) * intensity
+            covariance += more[:, None, None] * unit_noise(seconds)
+            expected = covariance[:, :2, :2] + error
+        inverse, _ = inverse_2x2(expected)
         gain = covariance[:, :, :2] @ inverse
         state += (gain @ innovation[:, :, None])[:, :, 0]
-        return Smoothed(
-            state, joseph_update(covariance, gain, measured.position_covariance), intensity
-        )
+        return Smoothed(state, joseph_update(covariance, gain, error), intensity)

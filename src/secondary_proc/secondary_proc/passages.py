@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a passage of the beam changes in tracks: a plot, a miss, the verdict on a candidate."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from radar_common.tables import TrackStatus
+from secondary_proc import score
+from secondary_proc.initiation import Evidence, Initiation
+from secondary_proc.plots import FloatArray, Plots
+from secondary_proc.smoothing import Measured, Smoother
+from secondary_proc.track_store import Columns
+
+BoolArray = npt.NDArray[np.bool_]
+
+# Plain numbers: numpy takes several times as long to compare with a member of an enumeration.
+TENTATIVE = int(TrackStatus.TENTATIVE)
+CONFIRMED = int(TrackStatus.CONFIRMED)
+COASTING = int(TrackStatus.COASTING)
+ENDED = int(TrackStatus.ENDED)
+
+
+def take_plots(tracks: Columns, plots: Plots, gain: FloatArray, smoother: Smoother) -> None:
+    """Give tracks their plots.
+
+    Args:
+        tracks: changed, n of them.
+        plots: n of them.
+        gain: of the score, shape (n,).
+        smoother: that improves the state.
+    """
+    tracks.hits += 1
+    tracks.misses[:] = 0
+    tracks.status[tracks.status == COASTING] = CONFIRMED
+    smoothed = smoother.update(
+        Measured(
+            state=tracks.state,
+            covariance=tracks.covariance,
+            memory=tracks.memory,
+            hits=tracks.hits,
+            seconds=plots.time - tracks.time,
+            position=plots.position,
+            position_covariance=plots.covariance,
+            azimuth=plots.azimuth,
+        )
+    )
+    tracks.state[:], tracks.covariance[:] = smoothed.state, smoothed.covariance
+    tracks.memory[:] = smoothed.memory
+    tracks.time[:] = tracks.crossing[:] = plots.time
+    tracks.plot_range[:], tracks.plot_azimuth[:] = plots.range, plots.azimuth
+    tracks.score += gain
+    np.maximum(tracks.best, tracks.score, out=tracks.best)
+
+
+def take_misses(tracks: Columns, allowed: int, detection_probability: float) -> BoolArray:
+    """Count a passage without a plot; confirmed tracks coast or end by it.
+
+    Args:
+        tracks: changed, n of them.
+        allowed: misses in a row that end a confirmed track.
+        detection_probability: of a plot per passage.
+
+    Returns:
+        Which tracks are tentative and wait for the verdict of their rule, shape (n,).
+    """
+    tentative: BoolArray = tracks.status == TENTATIVE
+    tracks.misses += 1
+    tracks.score += score.miss(detection_probability)
+    tracks.crossing[:] = tracks.expected
+    worn = score.is_spent(tracks.best, tracks.score, allowed, detection_probability)
+    worn |= tracks.misses >= allowed
+    tracks.status[:] = np.where(tentative, TENTATIVE, np.where(worn, ENDED, COASTING))
+    return tentative
+
+
+def judge(
+    tracks: Columns, tentative: BoolArray, initiation: Initiation, *, found: bool, threshold: float
+) -> int:
+    """Let the rule of initiation decide about candidates.
+
+    Args:
+        tracks: changed, n of them.
+        tentative: which of them are candidates, shape (n,).
+        initiation: the rule.
+        found: whether the passage brought a plot.
+        threshold: score of confirmation.
+
+    Returns:
+        How many have been confirmed.
+    """
+    verdict = initiation.judge(
+        Evidence(
+            rule=tracks.rule[tentative],
+            found=np.full(int(np.count_nonzero(tentative)), found),
+            hits=tracks.hits[tentative],
+            misses=tracks.misses[tentative],
+            score=tracks.score[tentative],
+            threshold=threshold,
+        )
+    )
+    tracks.rule[tentative] = verdict.rule
+    status = tracks.status[tentative]
+    status[verdict.confirmed] = CONFIRMED
+    status[verdict.dropped] = ENDED
+    tracks.status[tentative] = status
+    return int(np.count_nonzero(verdict.confirmed))
