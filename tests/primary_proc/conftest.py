@@ -9,8 +9,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from primary_proc.calculators.burst_shape import burst_shape, pulses_in_burst
-from primary_proc.calculators.single_pulse import steady_probability, threshold_for
+from primary_proc.calculators.pulse.burst_shape import burst_shape, pulses_in_burst
+from primary_proc.calculators.pulse.single_pulse import steady_probability, threshold_for
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.plot_extractor import PlotExtractor
 from radar_common.health import Health

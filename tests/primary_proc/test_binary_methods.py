@@ -8,9 +8,9 @@ import pytest
 from scipy.stats import binom, poisson
 
 from primary_proc.automata.automaton_chain import start_end_distribution
-from primary_proc.calculators.azimuth_accuracy import error_of
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.single_pulse import steady_probability, threshold_for
+from primary_proc.calculators.azimuth.azimuth_accuracy import error_of
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.single_pulse import steady_probability, threshold_for
 from primary_proc.choices import find_method
 from primary_proc.detectors.program_detector import ProgramDetector
 from primary_proc.methods.requirements import Requirements

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from primary_proc.calculators.amplitude_laws import envelope_law, pulse_law, synchronous_law
-from primary_proc.calculators.binary_threshold import (
+from primary_proc.calculators.pulse.amplitude_laws import envelope_law, pulse_law, synchronous_law
+from primary_proc.calculators.quantisation.binary_threshold import (
     average_risk,
     information,
     information_kept,
@@ -19,19 +19,19 @@ from primary_proc.calculators.binary_threshold import (
     neyman_pearson_threshold,
     whole_information,
 )
-from primary_proc.calculators.range_delay import (
+from primary_proc.calculators.quantisation.range_delay import (
     best_delay_threshold,
     crossing_delay_variance,
     potential_delay_variance,
 )
-from primary_proc.calculators.range_sampling import (
+from primary_proc.calculators.quantisation.range_sampling import (
     reconstruct,
     reconstruction_error,
     triangular_reconstruction_error,
     widened_probabilities,
 )
-from primary_proc.calculators.surveillance_grid import SurveillanceGrid
-from primary_proc.calculators.uniform_quantiser import (
+from primary_proc.calculators.quantisation.surveillance_grid import SurveillanceGrid
+from primary_proc.calculators.quantisation.uniform_quantiser import (
     characteristic_function,
     grouped_moments,
     quantised,

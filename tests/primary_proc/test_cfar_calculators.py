@@ -10,16 +10,16 @@ from hypothesis import strategies as st
 from scipy.special import comb
 from scipy.stats import binom
 
-from primary_proc.calculators.cfar_detection import (
+from primary_proc.calculators.cfar.cfar_detection import (
     detection_probability,
     false_alarm_probability,
     loss_db,
     multiplier_for,
     required_snr_db,
 )
-from primary_proc.calculators.cfar_half_laws import GreatestLevel, SmallestLevel
-from primary_proc.calculators.cfar_laws import AverageLevel, KnownLevel, OrderedLevel
-from primary_proc.calculators.target_models import TARGETS
+from primary_proc.calculators.cfar.cfar_half_laws import GreatestLevel, SmallestLevel
+from primary_proc.calculators.cfar.cfar_laws import AverageLevel, KnownLevel, OrderedLevel
+from primary_proc.calculators.pulse.target_models import TARGETS
 
 CONFIDENCE = 0.999
 LAWS = [

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from primary_proc.calculators.burst_shape import pulses_in_burst
+from primary_proc.calculators.pulse.burst_shape import pulses_in_burst
 from primary_proc.detectors.burst_detector import bursts
 from primary_proc.estimators.azimuth_estimator import Centres
 from primary_proc.plots.close_targets import TargetSeparator

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import binom
 
-from primary_proc.calculators.cfar_laws import AverageLevel
-from primary_proc.calculators.map_law import MapLevel, map_false_alarm, map_variance
+from primary_proc.calculators.cfar.cfar_laws import AverageLevel
+from primary_proc.calculators.cfar.map_law import MapLevel, map_false_alarm, map_variance
 from primary_proc.normalisers.clutter_map import ClutterMap
 from primary_proc.normalisers.map_memory import bins_for
 

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.ndimage import convolve1d
 
-from primary_proc.calculators.burst_shape import burst_shape, pulses_in_burst
+from primary_proc.calculators.pulse.burst_shape import burst_shape, pulses_in_burst
 from primary_proc.criterion.clutter_tail import LEVELS_DB, needed_raise_db
 from primary_proc.criterion.examiner import Examiner
 from primary_proc.criterion.plots_limit import PlotsLimit

@@ -8,10 +8,10 @@ import pytest
 
 from primary_proc.automata.accumulator import Accumulator
 from primary_proc.automata.program import Program
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.detection_probability import detection_probability
-from primary_proc.calculators.false_alarms import noise_probability
-from primary_proc.calculators.single_pulse import fluctuating_probability, threshold_for
+from primary_proc.calculators.bursts.detection_probability import detection_probability
+from primary_proc.calculators.bursts.false_alarms import noise_probability
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.single_pulse import fluctuating_probability, threshold_for
 
 THREE_OF_FOUR = Program(3, 4, 2)
 AMPLITUDES = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0)

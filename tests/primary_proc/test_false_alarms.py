@@ -7,8 +7,11 @@ import pytest
 
 from primary_proc.automata.accumulator import Accumulator
 from primary_proc.automata.program import Program
-from primary_proc.calculators.accumulator_noise import unbroken_probability, unlimited_false_starts
-from primary_proc.calculators.false_alarms import (
+from primary_proc.calculators.bursts.accumulator_noise import (
+    unbroken_probability,
+    unlimited_false_starts,
+)
+from primary_proc.calculators.bursts.false_alarms import (
     false_bursts_per_second,
     false_plots_per_scan,
     false_start_probability,
@@ -16,7 +19,7 @@ from primary_proc.calculators.false_alarms import (
     noise_probability,
     noise_probability_for_rate,
 )
-from primary_proc.calculators.single_pulse import threshold_for
+from primary_proc.calculators.pulse.single_pulse import threshold_for
 
 THREE_OF_FOUR = Program(3, 4, 2)
 # Kuzmin 1967, § 3.3.3: P_fa at p_N by the book's chain; exact chain where it differs.

@@ -10,13 +10,16 @@ from hypothesis import strategies as st
 from scipy.special import gammainc, gammaincc
 from scipy.stats import binom, ncx2
 
-from primary_proc.calculators.integrated_pulses import (
+from primary_proc.calculators.integration.integrated_pulses import (
     integrated_detection_probability,
     integrated_snr_db,
     integration_threshold,
 )
-from primary_proc.calculators.snr_approximations import albersheim_snr_db, shnidman_snr_db
-from primary_proc.calculators.target_models import TARGETS
+from primary_proc.calculators.integration.snr_approximations import (
+    albersheim_snr_db,
+    shnidman_snr_db,
+)
+from primary_proc.calculators.pulse.target_models import TARGETS
 
 CONFIDENCE = 0.999
 SNR_DB = np.array([-10.0, -3.0, 0.0, 4.0, 9.0, 15.0])

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import trapezoid
 from scipy.stats import rice
 
-from primary_proc.calculators.amplitude_laws import (
+from primary_proc.calculators.pulse.amplitude_laws import (
     PULSE_LAWS,
     envelope_law,
     pulse_law,
@@ -18,9 +18,12 @@ from primary_proc.calculators.amplitude_laws import (
     strong_signal_density,
     synchronous_law,
 )
-from primary_proc.calculators.level_thresholds import LEVEL_KINDS, level_thresholds
-from primary_proc.calculators.lloyd_max import lloyd_max
-from primary_proc.calculators.quantisation_loss import multilevel_gain_db, weak_signal_loss_db
+from primary_proc.calculators.quantisation.level_thresholds import LEVEL_KINDS, level_thresholds
+from primary_proc.calculators.quantisation.lloyd_max import lloyd_max
+from primary_proc.calculators.quantisation.quantisation_loss import (
+    multilevel_gain_db,
+    weak_signal_loss_db,
+)
 
 KINDS = sorted(LEVEL_KINDS)
 

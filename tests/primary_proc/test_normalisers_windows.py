@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import binom, kstest
 
-from primary_proc.calculators.cfar_detection import detection_probability
-from primary_proc.calculators.cfar_half_laws import GreatestLevel, SmallestLevel
-from primary_proc.calculators.cfar_laws import AverageLevel, OrderedLevel
+from primary_proc.calculators.cfar.cfar_detection import detection_probability
+from primary_proc.calculators.cfar.cfar_half_laws import GreatestLevel, SmallestLevel
+from primary_proc.calculators.cfar.cfar_laws import AverageLevel, OrderedLevel
 from primary_proc.choices import NORMALISERS, RANGE_WINDOWS
 from primary_proc.normalisers.half_sums import GreatestOf, SmallestOf
 from primary_proc.normalisers.ordered_statistic import OrderedStatistic

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from primary_proc.calculators.correlated_reference import (
+from primary_proc.calculators.cfar.correlated_reference import (
     averaging_exceedance,
     averaging_threshold,
     effective_reference_cells,

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from scipy.stats import binom, poisson
 
 from primary_proc.automata.program import Program
-from primary_proc.calculators.burst_shape import burst_shape, pulses_in_burst
-from primary_proc.calculators.detection_probability import detection_probability
-from primary_proc.calculators.false_alarms import false_start_probability
-from primary_proc.calculators.single_pulse import steady_probability, threshold_for
+from primary_proc.calculators.bursts.detection_probability import detection_probability
+from primary_proc.calculators.bursts.false_alarms import false_start_probability
+from primary_proc.calculators.pulse.burst_shape import burst_shape, pulses_in_burst
+from primary_proc.calculators.pulse.single_pulse import steady_probability, threshold_for
 from primary_proc.design import design
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.plot_extractor import PlotExtractor

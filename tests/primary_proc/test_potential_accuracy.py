@@ -9,19 +9,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import ncx2
 
-from primary_proc.calculators.amplitude_accuracy import (
+from primary_proc.calculators.azimuth.amplitude_accuracy import (
     rice_information,
     swerling_bound,
     unquantised_bound,
 )
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.burst_slope import ones_and_slopes, pattern_slope
-from primary_proc.calculators.posterior_mean import posterior_mean
-from primary_proc.calculators.potential_accuracy import (
+from primary_proc.calculators.azimuth.posterior_mean import posterior_mean
+from primary_proc.calculators.azimuth.potential_accuracy import (
     bound_by_enumeration,
     bound_of_bits,
     quantised_bound,
 )
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.burst_slope import ones_and_slopes, pattern_slope
 from radar_common.antenna_pattern import PATTERNS
 
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.stats import chi2, ncx2
 
-from primary_proc.calculators.burst_shape import burst_shape, pulses_in_burst
-from primary_proc.calculators.single_pulse import (
+from primary_proc.calculators.pulse.burst_shape import burst_shape, pulses_in_burst
+from primary_proc.calculators.pulse.single_pulse import (
     fluctuating_probability,
     steady_probability,
     threshold_for,

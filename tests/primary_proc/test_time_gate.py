@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from primary_proc.calculators.noise_excursions import (
+from primary_proc.calculators.quantisation.noise_excursions import (
     crossing_rate,
     false_detection_in_gate,
     long_crossing_rate,
@@ -17,7 +17,7 @@ from primary_proc.calculators.noise_excursions import (
     mean_excursion,
     video_model,
 )
-from primary_proc.calculators.pulse_in_gate import (
+from primary_proc.calculators.quantisation.pulse_in_gate import (
     crossing_correction,
     detection_in_gate,
     detection_in_gates,

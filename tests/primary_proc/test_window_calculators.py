@@ -11,14 +11,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import binom, chi2, ncx2
 
-from primary_proc.calculators.binary_integration import (
+from primary_proc.calculators.integration.binary_integration import (
     count_probability,
     detection_by_count,
     one_probability,
     required_snr_db,
     weighted_sum_probability,
 )
-from primary_proc.calculators.burst_weights import (
+from primary_proc.calculators.integration.burst_weights import (
     binary_threshold,
     binary_weights,
     level_probabilities,
@@ -26,17 +26,17 @@ from primary_proc.calculators.burst_weights import (
     weight_bits,
     whole_weights,
 )
-from primary_proc.calculators.decision_criteria import likelihood_sum_threshold
-from primary_proc.calculators.envelope_sums import envelope_sum_law, square_sum_law
-from primary_proc.calculators.integration_loss import (
+from primary_proc.calculators.integration.decision_criteria import likelihood_sum_threshold
+from primary_proc.calculators.integration.envelope_sums import envelope_sum_law, square_sum_law
+from primary_proc.calculators.integration.integration_loss import (
     integration_loss_db,
     level_sum_snr_db,
     linear_sum_snr_db,
     quantisation_loss_db,
 )
-from primary_proc.calculators.second_threshold import best_threshold, kuzmin_threshold
-from primary_proc.calculators.single_pulse import steady_probability, threshold_for
-from primary_proc.calculators.window_law import start_rate, sum_law
+from primary_proc.calculators.integration.second_threshold import best_threshold, kuzmin_threshold
+from primary_proc.calculators.integration.window_law import start_rate, sum_law
+from primary_proc.calculators.pulse.single_pulse import steady_probability, threshold_for
 
 
 def enumerated_starts(scores, probability, threshold):

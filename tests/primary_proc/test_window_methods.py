@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom, norm, poisson
 
-from primary_proc.calculators.burst_shape import burst_shape
+from primary_proc.calculators.pulse.burst_shape import burst_shape
 from primary_proc.methods.requirements import Requirements
 from primary_proc.methods.window_methods import WINDOW_METHODS
 from primary_proc.methods.window_targets import DETECTION_TRIALS

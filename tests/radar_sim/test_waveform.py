@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from primary_proc.calculators.range_delay import crossing_delay_variance
-from primary_proc.calculators.range_sampling import reconstruct, reconstruction_error
+from primary_proc.calculators.quantisation.range_delay import crossing_delay_variance
+from primary_proc.calculators.quantisation.range_sampling import reconstruct, reconstruction_error
 from radar_common.pulse_response import PULSE_RESPONSES
 from radar_sim.fluctuation import FLUCTUATIONS
 from radar_sim.waveform import WaveformGenerator

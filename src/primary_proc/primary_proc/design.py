@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from functools import lru_cache
 
-from primary_proc.calculators.burst_shape import pulses_in_burst
+from primary_proc.calculators.pulse.burst_shape import pulses_in_burst
 from primary_proc.choices import find_method
 from primary_proc.methods.detection_method import SettledMethod
 from primary_proc.methods.requirements import Requirements

@@ -13,7 +13,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from primary_proc.calculators.target_models import TARGETS
+from primary_proc.calculators.pulse.target_models import TARGETS
 from primary_proc.choices import METHODS, NORMALISERS, find_method
 from primary_proc.design import requirements_for
 from primary_proc.methods.designed_method import choose_program

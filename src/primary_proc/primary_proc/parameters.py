@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from primary_proc.calculators.level_thresholds import LEVEL_KINDS
-from primary_proc.calculators.target_models import TARGETS
+from primary_proc.calculators.pulse.target_models import TARGETS
+from primary_proc.calculators.quantisation.level_thresholds import LEVEL_KINDS
 from primary_proc.choices import ESTIMATORS, METHODS, NORMALISERS, RANGE_WINDOWS, find_method
 from primary_proc.stream.video_law import VIDEO_LAWS
 from radar_common.antenna_pattern import PATTERNS

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from primary_proc.calculators.required_ratio import required_snr_db
-from primary_proc.calculators.single_pulse import threshold_for
-from primary_proc.calculators.target_models import TARGETS
+from primary_proc.calculators.integration.required_ratio import required_snr_db
+from primary_proc.calculators.pulse.single_pulse import threshold_for
+from primary_proc.calculators.pulse.target_models import TARGETS
 from primary_proc.methods.detection_method import SettledMethod
 from primary_proc.methods.requirements import Requirements
 

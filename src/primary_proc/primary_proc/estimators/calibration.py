@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache
 
-from primary_proc.calculators.equivalent_cells import equivalent_cells
+from primary_proc.calculators.cfar.equivalent_cells import equivalent_cells
 from primary_proc.estimators.azimuth_estimator import AzimuthEstimator
 from primary_proc.estimators.locator import CalibratedEstimator, Locator
 from primary_proc.estimators.trial_bursts import TrialBursts, trial_bursts

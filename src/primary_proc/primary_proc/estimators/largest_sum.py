@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.single_pulse import threshold_for
-from primary_proc.calculators.target_models import TARGETS
+from primary_proc.calculators.pulse.single_pulse import threshold_for
+from primary_proc.calculators.pulse.target_models import TARGETS
 from primary_proc.estimators.burst_windows import burst_windows
 from primary_proc.estimators.envelopes import Envelopes
 from primary_proc.estimators.locator import FloatArray, Locator

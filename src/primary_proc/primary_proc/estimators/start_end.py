@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.accuracy_table import AccuracyTable
+from primary_proc.calculators.azimuth.accuracy_table import AccuracyTable
 from primary_proc.estimators.azimuth_estimator import AzimuthEstimator, Centres
 from primary_proc.estimators.envelopes import Envelopes
 

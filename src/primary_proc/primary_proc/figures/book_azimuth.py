@@ -8,11 +8,11 @@ from matplotlib.axes import Axes
 
 from primary_proc.automata.automaton import Output
 from primary_proc.automata.program import Program
-from primary_proc.calculators.azimuth_accuracy import azimuth_error
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.false_alarms import noise_probability
-from primary_proc.calculators.potential_accuracy import quantised_bound
-from primary_proc.calculators.single_pulse import steady_probability, threshold_for
+from primary_proc.calculators.azimuth.azimuth_accuracy import azimuth_error
+from primary_proc.calculators.azimuth.potential_accuracy import quantised_bound
+from primary_proc.calculators.bursts.false_alarms import noise_probability
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.single_pulse import steady_probability, threshold_for
 from primary_proc.figures.book_detection import PATTERN, PROGRAMS, PULSES, RATES
 from radar_common.figure_style import MUTED
 

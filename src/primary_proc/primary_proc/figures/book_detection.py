@@ -11,11 +11,11 @@ from matplotlib.ticker import NullFormatter
 from primary_proc.automata.accumulator import Accumulator
 from primary_proc.automata.burst_rule import BurstRule
 from primary_proc.automata.program import Program
-from primary_proc.calculators.binary_integration import required_snr_db
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.detection_probability import detection_probability
-from primary_proc.calculators.false_alarms import false_start_probability, noise_probability
-from primary_proc.calculators.single_pulse import steady_probability, threshold_for
+from primary_proc.calculators.bursts.detection_probability import detection_probability
+from primary_proc.calculators.bursts.false_alarms import false_start_probability, noise_probability
+from primary_proc.calculators.integration.binary_integration import required_snr_db
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.single_pulse import steady_probability, threshold_for
 
 PROGRAMS = ("3/3-2", "4/4-2", "4/4-3", "3/4-2")
 PULSES = 11

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from primary_proc.automata.accumulator import Accumulator
-from primary_proc.calculators.second_threshold import kuzmin_threshold
+from primary_proc.calculators.integration.second_threshold import kuzmin_threshold
 from primary_proc.methods.detection_method import DetectionMethod, SettledMethod
 from primary_proc.methods.requirements import Requirements
 from primary_proc.methods.rule_method import SettledRule

@@ -9,8 +9,8 @@ from collections.abc import Callable
 import numpy as np
 from scipy.special import i0e
 
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.window_law import start_rate
+from primary_proc.calculators.integration.window_law import start_rate
+from primary_proc.calculators.pulse.burst_shape import burst_shape
 from primary_proc.detectors.window_detector import LARGEST_SUM
 from primary_proc.methods.requirements import Requirements
 from primary_proc.methods.window import FloatArray, Window, coarse_levels, score_table

@@ -8,11 +8,11 @@ import math
 import numpy as np
 from scipy.optimize import brentq
 
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.burst_weights import binary_weights, whole_weights
-from primary_proc.calculators.second_threshold import kuzmin_threshold
-from primary_proc.calculators.single_pulse import threshold_for
-from primary_proc.calculators.window_law import start_rate
+from primary_proc.calculators.integration.burst_weights import binary_weights, whole_weights
+from primary_proc.calculators.integration.second_threshold import kuzmin_threshold
+from primary_proc.calculators.integration.window_law import start_rate
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.single_pulse import threshold_for
 from primary_proc.methods.requirements import Requirements
 from primary_proc.methods.window import FloatArray, Window
 from primary_proc.methods.window_method import Fit, WindowMethod

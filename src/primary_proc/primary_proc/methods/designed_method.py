@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 
 from primary_proc.automata.program import Program
-from primary_proc.calculators.required_ratio import required_snr_db
+from primary_proc.calculators.integration.required_ratio import required_snr_db
 from primary_proc.methods.detection_method import DetectionMethod, SettledMethod
 from primary_proc.methods.program_method import ProgramMethod
 from primary_proc.methods.requirements import Requirements

@@ -8,7 +8,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.accuracy_table import AccuracyTable
+from primary_proc.calculators.azimuth.accuracy_table import AccuracyTable
 from primary_proc.detectors.burst_detector import BurstDetector
 from primary_proc.methods.requirements import Requirements
 from primary_proc.normalisers.normaliser import Normaliser

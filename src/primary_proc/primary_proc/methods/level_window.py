@@ -7,9 +7,9 @@ import math
 
 import numpy as np
 
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.burst_weights import level_weights
-from primary_proc.calculators.level_thresholds import level_thresholds
+from primary_proc.calculators.integration.burst_weights import level_weights
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.quantisation.level_thresholds import level_thresholds
 from primary_proc.methods.amplitude_window import threshold_fit, whole_channels
 from primary_proc.methods.requirements import Requirements
 from primary_proc.methods.window_method import Fit, WindowMethod

@@ -10,9 +10,9 @@ import numpy.typing as npt
 
 from primary_proc.automata.automaton_chain import bursts_without
 from primary_proc.automata.burst_rule import BurstRule
-from primary_proc.calculators.accuracy_table import AccuracyTable, accuracy_table
-from primary_proc.calculators.detection_probability import detection_in_the_beam
-from primary_proc.calculators.false_alarms import (
+from primary_proc.calculators.azimuth.accuracy_table import AccuracyTable, accuracy_table
+from primary_proc.calculators.bursts.detection_probability import detection_in_the_beam
+from primary_proc.calculators.bursts.false_alarms import (
     false_plots_per_scan,
     false_start_probability,
     noise_probability_for_rate,

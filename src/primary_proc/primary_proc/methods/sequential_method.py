@@ -10,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from primary_proc.automata.sequential_test import SequentialTest
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.required_ratio import required_snr_db
-from primary_proc.calculators.single_pulse import threshold_for
-from primary_proc.calculators.target_models import TARGETS
-from primary_proc.calculators.wald_test import wald_bounds
+from primary_proc.calculators.integration.required_ratio import required_snr_db
+from primary_proc.calculators.integration.wald_test import wald_bounds
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.single_pulse import threshold_for
+from primary_proc.calculators.pulse.target_models import TARGETS
 from primary_proc.methods.detection_method import DetectionMethod
 from primary_proc.methods.requirements import Requirements
 from primary_proc.methods.rule_method import SettledRule

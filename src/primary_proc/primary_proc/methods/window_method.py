@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import lambertw
 
-from primary_proc.calculators.accuracy_table import AccuracyTable
-from primary_proc.calculators.target_models import TARGETS
+from primary_proc.calculators.azimuth.accuracy_table import AccuracyTable
+from primary_proc.calculators.pulse.target_models import TARGETS
 from primary_proc.detectors.window_detector import WindowDetector
 from primary_proc.methods.detection_method import DetectionMethod, FloatArray, SettledMethod
 from primary_proc.methods.requirements import Requirements

@@ -15,9 +15,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import gammaincinv, ndtr, ndtri
 
-from primary_proc.calculators.accuracy_table import AccuracyTable
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.target_models import TARGETS
+from primary_proc.calculators.azimuth.accuracy_table import AccuracyTable
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.target_models import TARGETS
 from primary_proc.detectors.burst_detector import BurstDetector
 from primary_proc.normalisers.fixed_level import FixedLevel
 from primary_proc.normalisers.normaliser import Normaliser

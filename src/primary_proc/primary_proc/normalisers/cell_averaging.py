@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.cfar_loss import averaging_loss_db
+from primary_proc.calculators.cfar.cfar_loss import averaging_loss_db
 from primary_proc.normalisers.normaliser import FloatArray, Normaliser, square_in_place
 
 Block = npt.NDArray[np.float32]

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.map_law import MapLevel, map_variance
+from primary_proc.calculators.cfar.map_law import MapLevel, map_variance
 from primary_proc.normalisers.map_memory import MapMemory
 from primary_proc.normalisers.normaliser import FloatArray, square_in_place
 from primary_proc.normalisers.reference_window import ReferenceWindow, behind, fitting_half

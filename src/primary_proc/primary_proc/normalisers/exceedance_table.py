@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.cfar_laws import LevelLaw
+from primary_proc.calculators.cfar.cfar_laws import LevelLaw
 
 LARGEST_RATIO = 1e9
 """Larger ratios, in units of the mean noise power for each reference cell, are taken for this one."""

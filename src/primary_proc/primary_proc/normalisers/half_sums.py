@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.cfar_half_laws import GreatestLevel, SmallestLevel
+from primary_proc.calculators.cfar.cfar_half_laws import GreatestLevel, SmallestLevel
 from primary_proc.normalisers.normaliser import FloatArray, square_in_place
 from primary_proc.normalisers.reference_window import ReferenceWindow, behind, fitting_half
 from primary_proc.normalisers.shift_network import ShiftNetwork

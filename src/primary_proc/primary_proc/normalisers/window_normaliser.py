@@ -8,12 +8,12 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.cfar_detection import (
+from primary_proc.calculators.cfar.cfar_detection import (
     false_alarm_probability,
     loss_db,
     multiplier_for,
 )
-from primary_proc.calculators.cfar_laws import LevelLaw
+from primary_proc.calculators.cfar.cfar_laws import LevelLaw
 from primary_proc.normalisers.exceedance_table import ExceedanceTable
 from primary_proc.normalisers.normaliser import FloatArray, Normaliser
 

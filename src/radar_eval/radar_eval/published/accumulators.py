@@ -11,11 +11,11 @@ import numpy.typing as npt
 from primary_proc.automata.accumulator import Accumulator
 from primary_proc.automata.book_chain import BookChain, book_chain, zero_runs
 from primary_proc.automata.program import Program
-from primary_proc.calculators.accumulator_noise import unlimited_false_starts
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.detection_probability import detection_probability
-from primary_proc.calculators.false_alarms import false_start_probability, noise_probability
-from primary_proc.calculators.single_pulse import steady_probability, threshold_for
+from primary_proc.calculators.bursts.accumulator_noise import unlimited_false_starts
+from primary_proc.calculators.bursts.detection_probability import detection_probability
+from primary_proc.calculators.bursts.false_alarms import false_start_probability, noise_probability
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.single_pulse import steady_probability, threshold_for
 from radar_eval.published.result import Row, to_digits
 
 FloatArray = npt.NDArray[np.float64]

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from primary_proc.calculators.amplitude_accuracy import swerling_bound, unquantised_bound
+from primary_proc.calculators.azimuth.amplitude_accuracy import swerling_bound, unquantised_bound
 from radar_eval.published.azimuth_trials import FloatArray, amplitude_errors
 from radar_eval.published.result import Row, to_digits
 

@@ -11,11 +11,11 @@ from primary_proc.automata.accumulator import Accumulator
 from primary_proc.automata.automaton_chain import StartEnd, start_end_distribution
 from primary_proc.automata.burst_rule import BurstRule
 from primary_proc.automata.program import Program
-from primary_proc.calculators.azimuth_accuracy import AzimuthError, azimuth_error, error_of
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.false_alarms import noise_probability
-from primary_proc.calculators.potential_accuracy import quantised_bound
-from primary_proc.calculators.single_pulse import steady_probability, threshold_for
+from primary_proc.calculators.azimuth.azimuth_accuracy import AzimuthError, azimuth_error, error_of
+from primary_proc.calculators.azimuth.potential_accuracy import quantised_bound
+from primary_proc.calculators.bursts.false_alarms import noise_probability
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.single_pulse import steady_probability, threshold_for
 from radar_eval.published.result import Row
 
 _PULSES = 11

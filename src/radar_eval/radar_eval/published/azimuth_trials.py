@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.burst_weights import binary_weights
-from primary_proc.calculators.single_pulse import steady_probability
+from primary_proc.calculators.integration.burst_weights import binary_weights
+from primary_proc.calculators.pulse.single_pulse import steady_probability
 from primary_proc.estimators.antisymmetric_weights import AntisymmetricWeights, Weights
 from radar_common.antenna_pattern import PATTERNS
 

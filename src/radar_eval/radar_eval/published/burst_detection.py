@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from scipy.special import i0e
 
-from primary_proc.calculators.decision_criteria import (
+from primary_proc.calculators.integration.decision_criteria import (
     average_risk,
     fast_sum_threshold,
     likelihood_sum_threshold,
@@ -16,7 +16,7 @@ from primary_proc.calculators.decision_criteria import (
     ratio_threshold,
     square_sum_threshold,
 )
-from primary_proc.calculators.envelope_sums import (
+from primary_proc.calculators.integration.envelope_sums import (
     FloatArray,
     SumLaw,
     envelope_sum_law,

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from primary_proc.calculators.cfar_detection import loss_db, multiplier_for, required_snr_db
-from primary_proc.calculators.cfar_half_laws import GreatestLevel, SmallestLevel
-from primary_proc.calculators.cfar_laws import AverageLevel, LevelLaw, OrderedLevel
+from primary_proc.calculators.cfar.cfar_detection import loss_db, multiplier_for, required_snr_db
+from primary_proc.calculators.cfar.cfar_half_laws import GreatestLevel, SmallestLevel
+from primary_proc.calculators.cfar.cfar_laws import AverageLevel, LevelLaw, OrderedLevel
 from primary_proc.normalisers.cell_averaging import CellAveraging
 from primary_proc.normalisers.half_sums import GreatestOf, SmallestOf
 from primary_proc.normalisers.normaliser import Normaliser

@@ -9,10 +9,10 @@ import numpy as np
 
 from primary_proc.automata.book_chain import book_chain, zero_runs
 from primary_proc.automata.program import Program
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.detection_probability import detection_probability
-from primary_proc.calculators.false_alarms import noise_probability
-from primary_proc.calculators.single_pulse import (
+from primary_proc.calculators.bursts.detection_probability import detection_probability
+from primary_proc.calculators.bursts.false_alarms import noise_probability
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.single_pulse import (
     fluctuating_probability,
     steady_probability,
     threshold_for,

@@ -13,7 +13,7 @@ from functools import cache
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.noise_excursions import video_model
+from primary_proc.calculators.quantisation.noise_excursions import video_model
 from primary_proc.quantisers.time_gate import gate_levels
 from radar_common.pulse_response import PulseResponse
 from radar_sim.waveform import WaveformGenerator

@@ -8,28 +8,31 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.special import ndtr
 
-from primary_proc.calculators.amplitude_laws import (
+from primary_proc.calculators.pulse.amplitude_laws import (
     AmplitudeLaw,
     envelope_law,
     rice_density,
     strong_signal_density,
     synchronous_law,
 )
-from primary_proc.calculators.binary_threshold import (
+from primary_proc.calculators.pulse.single_pulse import (
+    fluctuating_probability,
+    steady_probability,
+    threshold_for,
+)
+from primary_proc.calculators.quantisation.binary_threshold import (
     average_risk,
     information_kept,
     least_risk_threshold,
     most_information_threshold,
 )
-from primary_proc.calculators.lloyd_max import lloyd_max
-from primary_proc.calculators.quantisation_loss import multilevel_gain_db, weak_signal_loss_db
-from primary_proc.calculators.single_pulse import (
-    fluctuating_probability,
-    steady_probability,
-    threshold_for,
+from primary_proc.calculators.quantisation.lloyd_max import lloyd_max
+from primary_proc.calculators.quantisation.quantisation_loss import (
+    multilevel_gain_db,
+    weak_signal_loss_db,
 )
-from primary_proc.calculators.surveillance_grid import SurveillanceGrid
-from primary_proc.calculators.uniform_quantiser import (
+from primary_proc.calculators.quantisation.surveillance_grid import SurveillanceGrid
+from primary_proc.calculators.quantisation.uniform_quantiser import (
     characteristic_function,
     grouped_moments,
     sheppard_variance,

@@ -7,9 +7,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.burst_slope import OnesAndSlopes, ones_and_slopes, pattern_slope
-from primary_proc.calculators.potential_accuracy import bound_by_enumeration, quantised_bound
+from primary_proc.calculators.azimuth.potential_accuracy import (
+    bound_by_enumeration,
+    quantised_bound,
+)
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.burst_slope import OnesAndSlopes, ones_and_slopes, pattern_slope
 from radar_common.antenna_pattern import PATTERNS
 from radar_eval.published.azimuth_trials import binary_errors
 from radar_eval.published.result import Row, to_digits

@@ -8,12 +8,12 @@ from collections.abc import Iterator
 
 from primary_proc.automata.book_chain import CAPACITY, book_chain
 from primary_proc.automata.program import Program
-from primary_proc.calculators.false_alarms import (
+from primary_proc.calculators.bursts.false_alarms import (
     false_bursts_per_second,
     false_start_probability,
     noise_probability,
 )
-from primary_proc.calculators.single_pulse import threshold_for
+from primary_proc.calculators.pulse.single_pulse import threshold_for
 from radar_eval.published.result import Row, to_digits
 
 _NOISE = (0.05, 0.10, 0.15, 0.20, 0.30, 0.40, 0.50)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from primary_proc.calculators.pulse_in_gate import (
+from primary_proc.calculators.quantisation.pulse_in_gate import (
     crossing_correction,
     detection_in_gate,
     pulse_crossing_rate,

@@ -10,8 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from primary_proc.calculators.integrated_pulses import integrated_snr_db
-from primary_proc.calculators.snr_approximations import albersheim_snr_db, shnidman_snr_db
+from primary_proc.calculators.integration.integrated_pulses import integrated_snr_db
+from primary_proc.calculators.integration.snr_approximations import (
+    albersheim_snr_db,
+    shnidman_snr_db,
+)
 from radar_eval.published.result import Row
 
 _TARGETS = ("steady", "slow", "fast", "slow-dominant", "fast-dominant")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from primary_proc.calculators.noise_excursions import (
+from primary_proc.calculators.quantisation.noise_excursions import (
     crossing_rate,
     false_detection_in_gate,
     long_excursions,

@@ -9,18 +9,18 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from primary_proc.calculators.noise_excursions import video_model
-from primary_proc.calculators.range_delay import (
+from primary_proc.calculators.quantisation.noise_excursions import video_model
+from primary_proc.calculators.quantisation.range_delay import (
     best_delay_threshold,
     crossing_delay_variance,
     potential_delay_variance,
 )
-from primary_proc.calculators.range_sampling import (
+from primary_proc.calculators.quantisation.range_sampling import (
     reconstruction_error,
     triangular_reconstruction_error,
     widened_probabilities,
 )
-from primary_proc.calculators.surveillance_grid import SurveillanceGrid
+from primary_proc.calculators.quantisation.surveillance_grid import SurveillanceGrid
 from radar_eval.published.result import Row, to_digits
 
 _DELAY = {

@@ -7,17 +7,20 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from primary_proc.calculators.binary_integration import (
+from primary_proc.calculators.integration.binary_integration import (
     count_probability,
     one_probability,
     required_snr_db,
     weighted_sum_probability,
 )
-from primary_proc.calculators.burst_shape import burst_shape
-from primary_proc.calculators.burst_weights import binary_weights, weight_bits
-from primary_proc.calculators.integration_loss import integration_loss_db, quantisation_loss_db
-from primary_proc.calculators.second_threshold import best_threshold, kuzmin_threshold
-from primary_proc.calculators.single_pulse import steady_probability, threshold_for
+from primary_proc.calculators.integration.burst_weights import binary_weights, weight_bits
+from primary_proc.calculators.integration.integration_loss import (
+    integration_loss_db,
+    quantisation_loss_db,
+)
+from primary_proc.calculators.integration.second_threshold import best_threshold, kuzmin_threshold
+from primary_proc.calculators.pulse.burst_shape import burst_shape
+from primary_proc.calculators.pulse.single_pulse import steady_probability, threshold_for
 from radar_common.antenna_pattern import PATTERNS
 from radar_eval.published.result import Row, to_digits
 

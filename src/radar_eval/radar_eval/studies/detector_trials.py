@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from primary_proc.calculators.burst_shape import burst_shape
+from primary_proc.calculators.pulse.burst_shape import burst_shape
 from primary_proc.design import Design, design
 from primary_proc.parameters import ExtractorParameters
 from primary_proc.plot_extractor import PlotExtractor

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from primary_proc.calculators.required_ratio import required_snr_db
+from primary_proc.calculators.integration.required_ratio import required_snr_db
 from primary_proc.choices import METHODS
 from primary_proc.methods.detection_method import SettledMethod
 from radar_eval.command_line import progress

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Noise levels that are estimated: their thresholds and losses."""
