@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -154,6 +156,96 @@ def test_a_hundred_thousand_plots_at_one_place_and_time(make_plots, start):
     tracker.flush()
     assert len(tracker._tracks) <= 500
     assert len(tracker._starts.plots) <= 1000
+
+
+def test_one_message_from_the_future_costs_the_tracks_but_not_the_tracker(scene, run, tracker):
+    world = scene(seed=8)
+    world.fly(*FLIGHT)
+    messages = list(world.messages())
+    half = len(messages) // 2
+    future = Table(messages[half].stamp + 3600 * NANOSECONDS, messages[half].rows)
+    rows, times = run(tracker, [*messages[:half], future, *messages[half:]])
+    assert tracker.health.dropped == {"time went back: all tracks ended": 1}
+    ids = sorted(confirmed(rows))
+    assert len(ids) == 2
+    assert times[rows["id"] == ids[1]].max() > 70.0
+
+
+def test_a_burst_of_a_hundred_thousand_plots_does_not_stop_a_tracker_with_usual_limits(
+    scene, make_plots, run, tracker
+):
+    world = scene(seed=9)
+    world.fly(*FLIGHT)
+    messages = list(world.messages())
+    half = len(messages) // 2
+    random = np.random.default_rng(9)
+    count = 100_000
+    rows = make_plots(random.uniform(1e3, 4e5, count), 0.0, random.uniform(0.0, 0.125, count))
+    turn = messages[half].stamp / NANOSECONDS - messages[0].stamp / NANOSECONDS
+    rows["azimuth"] = np.mod(2 * np.pi * (turn + rows["time_offset"]) / 4.0, 2 * np.pi)
+    rows["snr_db"] = 10.0
+    burst = Table(messages[half].stamp, np.concatenate([messages[half].rows, rows]))
+    found, times = run(tracker, [*messages[:half], burst, *messages[half + 1 :]])
+    limit = tracker.parameters.maximum_plots
+    kept = len(burst.rows) - limit
+    assert tracker.health.dropped["plots over the limit of a scan"] == kept
+    first = min(confirmed(found))
+    assert times[(found["id"] == first) & (found["status"] == TrackStatus.CONFIRMED)].max() > 75.0
+
+
+def test_errors_that_change_from_nothing_to_kilometres_keep_a_track_finite(scene, run, tracker):
+    world = scene(seed=10)
+    world.fly(*FLIGHT)
+    messages = list(world.messages())
+    told = [(0.0, 0.0), (1e4, 0.5), (5.0, 2e-4), (np.nan, 0.5)]
+    turn = 0
+    for message in messages:
+        if len(message.rows):
+            message.rows["range_std"], message.rows["azimuth_std"] = told[turn % len(told)]
+            turn += 1
+    rows, _ = run(tracker, messages)
+    assert not tracker.health.dropped
+    assert len(rows) > 10
+    covariance = rows["covariance"].astype(float).reshape(-1, 4, 4)
+    scale = np.sqrt(np.einsum("nii->ni", covariance))
+    correlation = covariance / scale[:, :, None] / scale[:, None, :]
+    assert (np.linalg.eigvalsh(correlation) > -1e-5).all()
+
+
+def test_a_track_outlives_a_change_of_the_scan_period_and_the_period_is_reported(scene, run):
+    tracker = Tracker(TrackerParameters(scan_period=4.0))
+    first, second = scene(seed=11), scene(seed=12, period=12.0)
+    for world, begin, stop in ((first, 0.0, 60.0), (second, 60.0, 240.0)):
+        for flight in (FLIGHT, ((-30e3, 25e3), (60.0, -40.0)), ((-5e3, -40e3), (20.0, 90.0))):
+            world.fly(*flight, begin=begin, end=stop)
+        world.clutter(40.0, begin=begin, end=stop, nearest=70e3)
+    for name in ("times", "distances", "azimuths"):
+        getattr(first, name).extend(getattr(second, name))
+    run(tracker, first.messages())
+    watch = tracker.health.watches["scan period, s"]
+    assert watch.expected == 4.0
+    assert watch.observed == pytest.approx(12.0, rel=0.01)
+
+
+def test_memory_is_flat_over_a_thousand_scans(scene):
+    world = scene(seed=13)
+    for begin in range(0, 4000, 200):
+        world.fly(*FLIGHT, begin=float(begin), end=begin + 200.0)
+    world.clutter(4.0, end=4000.0)
+    messages = list(world.messages(sectors=1, end=4000.0))
+    tracker = Tracker(TrackerParameters())
+    held = []
+    tracemalloc.start()
+    try:
+        for number, message in enumerate(messages):
+            tracker.process(message)
+            if number % 50 == 49:
+                held.append(tracemalloc.get_traced_memory()[0])
+    finally:
+        tracemalloc.stop()
+    early, late = held[4:8], held[-8:]
+    # Plots that wait come and go; what grew with every scan by a single row would exceed this.
+    assert max(late) < max(early) + 60e3
 
 
 @settings(max_examples=60)
