@@ -8,6 +8,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from radar_eval.published.gate_sizes import gate_sizes
 from radar_eval.published.result import Row
 from secondary_proc.gates import gate
 from secondary_proc.plots import Plots
@@ -21,7 +22,7 @@ def gate_probabilities() -> Iterator[Row]:
     """Count plots inside the tracker's gates.
 
     Yields:
-        Share of a target's plots that fall into a gate of one, two and three sigmas.
+        Share of a target's plots that fall into a gate of one, two and three sigmas; sizes of gates.
     """
     finding = (
         "0.68 and 0.997 are probabilities of one coordinate, 0.92 is nearly that of two; the tracker's gate is the "
@@ -32,6 +33,7 @@ def gate_probabilities() -> Iterator[Row]:
         tolerance = _FOUR_SIGMAS * float(np.sqrt(expected * (1.0 - expected) / _SAMPLES))
         label = f"share of plots in a gate of {sigmas:g} sigma"
         yield Row(label, published, expected, _share_inside(sigmas), tolerance, finding)
+    yield from gate_sizes()
 
 
 def _share_inside(sigmas: float) -> float:

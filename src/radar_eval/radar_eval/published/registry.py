@@ -22,6 +22,7 @@ from radar_eval.published.program_detectors import program_detectors
 from radar_eval.published.pulse_in_gate import pulse_in_gate
 from radar_eval.published.required_snr import required_snr
 from radar_eval.published.result import PublishedResult
+from radar_eval.published.selection import selections
 from radar_eval.published.sequential import sequential_tests
 from radar_eval.published.time_gate import time_gate
 from radar_eval.published.time_quantisation import time_quantisation
@@ -124,7 +125,12 @@ RESULTS = {
             f"{_BOOK}, § 4.6, (4.113)-(4.136), tables 4.1-4.3, figures 4.17-4.24",
             track_parameters,
         ),
-        PublishedResult("kuzmin-4-gates", f"{_BOOK}, § 4.7.2", gate_probabilities),
+        PublishedResult("kuzmin-4-gates", f"{_BOOK}, § 4.7.2, (4.137)-(4.139)", gate_probabilities),
+        PublishedResult(
+            "kuzmin-4-selection",
+            f"{_BOOK}, § 4.7.3-4.7.5, (4.140)-(4.153), figures 4.26-4.29",
+            selections,
+        ),
         PublishedResult(
             "cfar-thresholds",
             "P. P. Gandhi, S. A. Kassam, IEEE Trans. AES 24, 1988; H. Rohling, IEEE Trans. AES 19, 1983",
