@@ -17,7 +17,7 @@ from primary_proc.figures.book_detection import PATTERN, PROGRAMS, PULSES, RATES
 from radar_common.figure_style import MUTED
 
 _FIRST_THRESHOLD = 2.0
-_AMPLITUDES = np.linspace(1.5, 5.0, 22)
+_AMPLITUDES = np.linspace(1.5, 5.0, 15)
 _LONGER = 15
 # The book's burst: found at position 4, ended in the noise at 13, its middle at 6.
 _EXAMPLE = (0, 1, 1, 1, 0, 1, 1, 1, 1, 0, 1, 0, 0, 0)

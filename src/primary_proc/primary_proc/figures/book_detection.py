@@ -24,9 +24,9 @@ PATTERN = "sinc2"
 
 _WINDOW = 16
 _FALSE_ALARM = 1e-5
-_NOISE = np.geomspace(0.02, 0.5, 40)
+_NOISE = np.geomspace(0.02, 0.5, 25)
 _TICKS = (0.02, 0.05, 0.1, 0.2, 0.5)
-_AMPLITUDES = np.linspace(0.5, 6.0, 34)
+_AMPLITUDES = np.linspace(0.5, 6.0, 23)
 _THRESHOLDS = (3, 4, 5, 6, 8)
 _THRESHOLD = 5
 _LENGTHS = (8, 11, 15, 20)
