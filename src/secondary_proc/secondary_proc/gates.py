@@ -81,7 +81,7 @@ def gate(
     expected = predict_position_covariance(store["covariance"][track], seconds, noise_density)
     expected += plots.covariance[plot]
     distance_squared, determinant = normalised_square(difference, expected)
-    inside = np.flatnonzero(distance_squared <= sigmas**2)
+    inside = (distance_squared <= sigmas**2).nonzero()[0]
     return Gated(
         track[inside], plot[inside], distance_squared[inside], determinant[inside], skipped
     )

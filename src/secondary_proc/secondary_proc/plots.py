@@ -47,11 +47,13 @@ class Plots:
             The same plots with positions and covariances.
         """
         distance, azimuth = rows[:, RANGE], rows[:, AZIMUTH]
+        position = np.empty((len(rows), 2))
+        position[:, 0], position[:, 1] = enu_from_polar(distance, azimuth)
         return cls(
             time=rows[:, TIME],
             range=distance,
             azimuth=azimuth,
-            position=np.column_stack(enu_from_polar(distance, azimuth)),
+            position=position,
             covariance=enu_covariance(distance, azimuth, rows[:, RANGE_STD], rows[:, AZIMUTH_STD]),
         )
 

@@ -7,6 +7,8 @@ found as the maximum of the periodogram of exp(j azimuth) over the recent plots 
 
 from __future__ import annotations
 
+from math import copysign
+
 import numpy as np
 import numpy.typing as npt
 
@@ -65,7 +67,7 @@ class Rotation:
     @property
     def sense(self) -> float:
         """+1 where azimuths increase with time, -1 where they decrease, 0 while unknown."""
-        return float(np.sign(self._rate))
+        return copysign(1.0, self._rate) if self._rate else 0.0
 
     def tells_passages(self, now: float) -> bool:
         """Whether it can be said that the beam has passed a place.

@@ -7,6 +7,8 @@ ratio B confirms at most one in B of the candidates that false plots open (Wald 
 
 from __future__ import annotations
 
+from math import log, log1p
+
 import numpy as np
 import numpy.typing as npt
 
@@ -81,7 +83,7 @@ def miss(detection_probability: float) -> float:
     Returns:
         The change, negative.
     """
-    return float(np.log1p(-detection_probability))
+    return log1p(-detection_probability)
 
 
 def is_spent(
@@ -113,4 +115,4 @@ def confirmation_threshold(candidates_per_hour: float, false_tracks_per_hour: fl
     Returns:
         Threshold, never below a ratio of ten.
     """
-    return float(np.log(max(candidates_per_hour / false_tracks_per_hour, 10.0)))
+    return log(max(candidates_per_hour / false_tracks_per_hour, 10.0))

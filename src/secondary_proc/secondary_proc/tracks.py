@@ -119,7 +119,7 @@ class Tracks:
             expected &= store["opens"] <= last
         gated = gate(
             store,
-            np.flatnonzero(expected),
+            expected.nonzero()[0],
             plots,
             sigmas=self._parameters.gate_sigmas,
             noise_density=self._manoeuvre,
@@ -199,7 +199,7 @@ class Tracks:
             self._parameters.detection_probability,
             self._parameters.confirmed_misses,
         )
-        while self._soonest < until and len(late := np.flatnonzero(store["due"] < until)):
+        while self._soonest < until and len(late := (store["due"] < until).nonzero()[0]):
             columns = store.take(late)
             tentative = take_misses(columns, allowed, detection)
             unsure = int(np.count_nonzero(tentative))
