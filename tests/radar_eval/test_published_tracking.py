@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from radar_eval.published import false_tracks
@@ -21,9 +23,19 @@ NAMES = {
 }
 
 
+@pytest.fixture(scope="module")
+def page(repository):
+    return (repository / "docs" / "kuzmin_chapter_4.md").read_text("utf-8")
+
+
+@pytest.fixture(scope="module")
+def computed():
+    return {name: list(RESULTS[name].compute()) for name in NAMES}
+
+
 @pytest.fixture(scope="module", params=sorted(NAMES))
-def rows(request):
-    found = list(RESULTS[request.param].compute())
+def rows(request, computed):
+    found = computed[request.param]
     assert len(found) >= NAMES[request.param]
     return found
 
@@ -49,3 +61,10 @@ def test_false_tracks_are_computed_and_not_copied(monkeypatch):
     monkeypatch.setattr(false_tracks, "false_tracks_kept", lambda empty, misses: float(misses))
     wrong = [row for row in false_tracks.false_tracks() if not row.holds]
     assert len(wrong) >= 20
+
+
+def test_the_page_counts_the_rows(page, computed):
+    counts = {name: len(rows) for name, rows in computed.items()}
+    tabled = dict(re.findall(r"^\| `(kuzmin-4-[a-z-]+)` \| [^|]+ \| (\d+) \|", page, re.MULTILINE))
+    assert {name: int(count) for name, count in tabled.items()} == counts
+    assert f"{sum(counts.values())} rows" in page

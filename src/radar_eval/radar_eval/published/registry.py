@@ -112,7 +112,7 @@ RESULTS = {
         ),
         PublishedResult(
             "kuzmin-4-track-detection",
-            f"{_BOOK}, § 4.3.5, (4.29)-(4.37), figures 4.4 and 4.5",
+            f"{_BOOK}, § 4.3.2 and 4.3.5, (4.14), (4.29)-(4.37), figures 4.4 and 4.5",
             track_detections,
         ),
         PublishedResult(

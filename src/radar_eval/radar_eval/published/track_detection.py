@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from radar_eval.published.result import Row, to_digits
+from secondary_proc.calculators.hit_test import wald_bounds
 from secondary_proc.calculators.plot_detection import (
     burst_threshold,
     farthest_range,
@@ -59,7 +60,8 @@ def track_detections() -> Iterator[Row]:
     """Compute both probabilities.
 
     Yields:
-        Thresholds, plots against range, errors of the approximations, tracks by scans, ranges of detection.
+        Thresholds, bounds of the sequential test,
+        plots against range, errors of the approximations, tracks by scans, ranges of detection.
     """
     # A ratio of 16 in power is a ratio of 2 in range.
     ratio = farthest_range(16e6, 3e3, 0.1, 10.0, 1e-13) / farthest_range(1e6, 3e3, 0.1, 10.0, 1e-13)
@@ -67,6 +69,9 @@ def track_detections() -> Iterator[Row]:
     for pulses, expected in _THRESHOLDS.items():
         label = f"threshold x_0 for N_0 = {pulses}, P_fa = 1e-4 (4.30)"
         yield Row(label, None, expected, burst_threshold(_FALSE_ALARM, pulses), to_digits(expected))
+    for name, bound, expected in zip("AB", wald_bounds(0.01, 0.1), (0.1 / 0.99, 90.0), strict=True):
+        label = f"bound {name} of the sequential test, errors 0.01 and 0.1, after (4.14)"
+        yield Row(label, None, expected, bound, 1e-9)
     yield from _plots()
     yield from _approximations()
     yield from _tracks()
