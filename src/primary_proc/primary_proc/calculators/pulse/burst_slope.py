@@ -15,6 +15,7 @@ from radar_common.antenna_pattern import PATTERNS
 FloatArray = npt.NDArray[np.float64]
 
 _STEP = 1e-6
+_LEAST_ZERO = 1e-30
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +82,9 @@ def ones_and_slopes(
         # exp(-(x0^2 + a^2) / 2) I_1(x0 a), scaled so that it does not overflow.
         bell = np.exp(-0.5 * (threshold - amplitude) ** 2) * ive(1, threshold * amplitude)
         slope = threshold * bell * strength * np.asarray(shape_slope)
-        return OnesAndSlopes(1.0 - zero, slope, zero)
+        # A zero that never comes tells nothing, and scipy 1.11 loses the digits of its probability far out.
+        told = np.where(zero > _LEAST_ZERO, slope, 0.0)
+        return OnesAndSlopes(np.maximum(1.0 - zero, 0.0), told, zero)
     if fluctuation != "fast":
         raise ValueError(f"fluctuation {fluctuation!r} is neither steady nor fast")
     probability = fluctuating_probability(threshold, amplitude)

@@ -36,7 +36,9 @@ def steady_probability(threshold: npt.ArrayLike, amplitude: npt.ArrayLike) -> Fl
     Returns:
         Probability, of the broadcast shape.
     """
-    return np.asarray(1.0 - chndtr(np.square(threshold), 2.0, np.square(amplitude)))
+    below = chndtr(np.square(threshold), 2.0, np.square(amplitude))
+    # scipy 1.11 lets it exceed one by a rounding error.
+    return np.asarray(np.maximum(1.0 - below, 0.0))
 
 
 def fluctuating_probability(threshold: npt.ArrayLike, amplitude: npt.ArrayLike) -> FloatArray:
