@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from radar_sim.scenario import scenario_names
+
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```sh\n(.*?)```", TEXT, flags=re.DOTALL)
@@ -90,4 +92,4 @@ def test_every_parameter_named_exists():
     table = (ROOT / "docs" / "parameters.md").read_text(encoding="utf-8")
     section = TEXT.split("those that matter first:")[1].split("## Topics")[0]
     for name in re.findall(r"`([a-z_]+)`", section):
-        assert name in {"airport", "coast", "tiny"} or name in table, name
+        assert name in scenario_names() or name in table, name
