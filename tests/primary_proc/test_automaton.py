@@ -14,7 +14,7 @@ from primary_proc.automata.accumulator import Accumulator
 from primary_proc.automata.automaton import Automaton, Output, explore
 from primary_proc.automata.minimisation import minimised
 from primary_proc.automata.program import Program
-from primary_proc.automata.sequential_test import SequentialTest
+from primary_proc.automata.sequential_rule import SequentialTest
 
 # Kuzmin 1967, Table 3.10, states as printed there.
 TABLE_3_10 = Automaton(

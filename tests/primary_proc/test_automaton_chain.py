@@ -19,7 +19,7 @@ from primary_proc.automata.automaton_chain import (
     step_chain,
 )
 from primary_proc.automata.program import Program
-from primary_proc.automata.sequential_test import SequentialTest
+from primary_proc.automata.sequential_rule import SequentialTest
 
 RULES = [
     Program(3, 4, 2),

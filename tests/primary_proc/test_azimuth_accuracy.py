@@ -9,7 +9,7 @@ import pytest
 from primary_proc.automata.accumulator import Accumulator
 from primary_proc.automata.automaton_chain import StartEnd, start_end_distribution
 from primary_proc.automata.program import Program
-from primary_proc.automata.sequential_test import SequentialTest
+from primary_proc.automata.sequential_rule import SequentialTest
 from primary_proc.calculators.azimuth.accuracy_table import accuracy_table
 from primary_proc.calculators.azimuth.azimuth_accuracy import azimuth_error, error_of
 from primary_proc.calculators.bursts.false_alarms import noise_probability

@@ -9,7 +9,7 @@ import pytest
 from primary_proc.automata.accumulator import Accumulator
 from primary_proc.automata.book_chain import book_chain, zero_runs
 from primary_proc.automata.program import Program
-from primary_proc.automata.sequential_test import SequentialTest
+from primary_proc.automata.sequential_rule import SequentialTest
 
 THREE_OF_FOUR = Program(3, 4, 2)
 RULES = [

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from primary_proc.automata.accumulator import Accumulator
 from primary_proc.automata.automaton import Output
 from primary_proc.automata.program import Program
-from primary_proc.automata.sequential_test import SequentialTest
+from primary_proc.automata.sequential_rule import SequentialTest
 from primary_proc.detectors.burst_detector import bursts
 from primary_proc.detectors.program_detector import ProgramDetector
 from primary_proc.detectors.table_detector import TableDetector

@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from primary_proc.automata.sequential_test import SequentialTest
+from primary_proc.automata.sequential_rule import SequentialTest
 from primary_proc.calculators.integration.required_ratio import required_snr_db
-from primary_proc.calculators.integration.wald_test import wald_bounds
+from primary_proc.calculators.integration.sequential_analysis import wald_bounds
 from primary_proc.calculators.pulse.burst_shape import burst_shape
 from primary_proc.calculators.pulse.single_pulse import threshold_for
 from primary_proc.calculators.pulse.target_models import TARGETS

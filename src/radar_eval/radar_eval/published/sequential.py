@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from primary_proc.calculators.integration.wald_test import sequential_quality, wald_bounds
+from primary_proc.calculators.integration.sequential_analysis import sequential_quality, wald_bounds
 from radar_eval.published.result import Row
 
 _AMPLITUDE = 1.5

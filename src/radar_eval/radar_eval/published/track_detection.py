@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from radar_eval.published.result import Row, to_digits
-from secondary_proc.calculators.hit_test import wald_bounds
+from secondary_proc.calculators.hit_sequence import wald_bounds
 from secondary_proc.calculators.plot_detection import (
     burst_threshold,
     farthest_range,

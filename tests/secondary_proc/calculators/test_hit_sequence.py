@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from secondary_proc.calculators.hit_test import follow_hit_test, wald_bounds
+from secondary_proc.calculators.hit_sequence import follow_hit_test, wald_bounds
 
 
 @settings(max_examples=25)

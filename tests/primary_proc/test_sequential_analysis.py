@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import i0e
 
-from primary_proc.calculators.integration.wald_test import (
+from primary_proc.calculators.integration.sequential_analysis import (
     operating_characteristic,
     sequential_quality,
     wald_bounds,
