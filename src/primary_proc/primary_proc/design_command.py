@@ -14,12 +14,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from primary_proc.calculators.pulse.target_models import TARGETS
-from primary_proc.choices import METHODS, NORMALISERS, find_method
+from primary_proc.choices import METHODS, NORMALISERS
 from primary_proc.design import requirements_for
-from primary_proc.methods.designed_method import choose_program
-from primary_proc.methods.requirements import Requirements
 from primary_proc.parameters import ExtractorParameters
-from primary_proc.prediction import Prediction, predict
+from primary_proc.prediction import Prediction, predict_extractor
 from radar_common.antenna_pattern import PATTERNS
 from radar_common.frames import TWO_PI
 from radar_common.parameters import from_file
@@ -119,20 +117,7 @@ def _predict(arguments: argparse.Namespace) -> Prediction:
         # One ring without merging: false starts and false plots are then the same thing.
         wanted = arguments.pfa * requirements.pulses_per_scan
         requirements = replace(requirements, false_plots=wanted, rings=1, gap=0)
-    return _predict_detector(parameters, requirements, arguments.rings)
-
-
-def _predict_detector(
-    parameters: ExtractorParameters, requirements: Requirements, cells: int
-) -> Prediction:
-    name = parameters.detector
-    if name == "auto":
-        name, method = choose_program(requirements)
-    else:
-        method = find_method(name).settle(requirements)
-    normaliser = NORMALISERS[parameters.normaliser](parameters, cells)
-    loss = normaliser.loss_db(method.noise_probability)
-    return predict(name, method, requirements, loss)
+    return predict_extractor(parameters, requirements, arguments.rings)
 
 
 def _print_table(prediction: Prediction) -> None:

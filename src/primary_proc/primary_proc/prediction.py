@@ -12,8 +12,11 @@ import numpy as np
 from primary_proc.calculators.integration.required_ratio import required_snr_db
 from primary_proc.calculators.pulse.single_pulse import threshold_for
 from primary_proc.calculators.pulse.target_models import TARGETS
+from primary_proc.choices import NORMALISERS, find_method
+from primary_proc.methods.designed_method import choose_program
 from primary_proc.methods.detection_method import SettledMethod
 from primary_proc.methods.requirements import Requirements
+from primary_proc.parameters import ExtractorParameters
 
 _WANTED = (0.5, 0.9)
 _SNR_DB = np.arange(0.0, 25.0)
@@ -69,6 +72,31 @@ class Prediction:
             Nested names and numbers.
         """
         return asdict(self)
+
+
+def predict_extractor(
+    parameters: ExtractorParameters, requirements: Requirements, cells: int
+) -> Prediction:
+    """Design an extractor and work out its quality.
+
+    Args:
+        parameters: what the user wants.
+        requirements: what that and the radar ask of the detector.
+        cells: range cells of a pulse.
+
+    Returns:
+        The prediction.
+
+    Raises:
+        ValueError: the requirements are out of reach.
+    """
+    name = parameters.detector
+    if name == "auto":
+        name, method = choose_program(requirements)
+    else:
+        method = find_method(name).settle(requirements)
+    normaliser = NORMALISERS[parameters.normaliser](parameters, cells)
+    return predict(name, method, requirements, normaliser.loss_db(method.noise_probability))
 
 
 def predict(

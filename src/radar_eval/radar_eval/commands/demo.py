@@ -7,9 +7,16 @@ import argparse
 import shutil
 from pathlib import Path
 
+from primary_proc.design import requirements_for
+from primary_proc.figures.design_curves import draw_design
+from primary_proc.parameters import ExtractorParameters
+from primary_proc.prediction import predict_extractor
+from radar_common.frames import TWO_PI
 from radar_eval.command_line import run
 from radar_eval.commands import report, score
+from radar_eval.errors import EvaluationError
 from radar_eval.live_chain import record_live_chain
+from radar_sim.scenario import load_scenario
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -40,9 +47,10 @@ def _parser() -> argparse.ArgumentParser:
 
 def _demo(arguments: argparse.Namespace) -> int:
     bag, logs, page = (arguments.out / name for name in ("bag", "logs", "report"))
-    for folder in (bag, logs, page):
+    for folder in (bag, logs, page, arguments.out / "design"):
         # A bag is never overwritten; the remains of the demo before are in its way.
         shutil.rmtree(folder, ignore_errors=True)
+    _print_design(arguments.scenario, arguments.out / "design")
     print(f"simulating {arguments.scans} scans of {arguments.scenario!r} in three processes …")
     record_live_chain(
         bag,
@@ -56,3 +64,22 @@ def _demo(arguments: argparse.Namespace) -> int:
     if not code:
         print(f"\nlook at {page / 'index.html'}")
     return code
+
+
+def _print_design(scenario: str, folder: Path) -> None:
+    """Say beforehand what the extractor will do; the scores at the end say what it did."""
+    radar = load_scenario(scenario).radar
+    parameters = ExtractorParameters()
+    step = TWO_PI / radar.pulses_per_scan
+    requirements = requirements_for(parameters, radar.cells, step)
+    try:
+        prediction = predict_extractor(parameters, requirements, radar.cells)
+    except ValueError as error:
+        raise EvaluationError(f"the extractor's defaults do not fit {scenario}: {error}") from error
+    needed = prediction.required_snr_db["steady"]["0.9"]
+    print(
+        f"the extractor is designed for {prediction.false_plots:.3g} false plots a scan: "
+        f"{prediction.detector} finds 90 % of steady targets "
+        + ("nowhere" if needed is None else f"from {needed:.1f} dB on")
+    )
+    print(f"its curves: {draw_design(prediction, folder)}")
