@@ -83,22 +83,33 @@ def design(parameters: ExtractorParameters, rings: int, step: float) -> Design:
     Raises:
         ValueError: the beam holds too few pulses for the detector, or the false-plot rate is out of reach.
     """
-    method = find_method(parameters.detector)
     requirements = requirements_for(parameters, rings, step)
-    if requirements.pulses < method.fewest_pulses:
-        raise ValueError(
-            f"a beam of {parameters.beamwidth_deg:g} deg holds {requirements.pulses:.1f} pulses, "
-            f"detector {parameters.detector} needs {method.fewest_pulses}"
-        )
     return Design(
         step=step,
         requirements=requirements,
-        method=_settled(parameters.detector, requirements),
+        method=settled(parameters.detector, requirements),
         longest=math.ceil(parameters.longest_burst * requirements.pulses),
     )
 
 
 @lru_cache(maxsize=_REMEMBERED)
-def _settled(detector: str, requirements: Requirements) -> SettledMethod:
-    """Set up a detector; a pause or a change back to an earlier rotation must not cost the set-up again."""
-    return find_method(detector).settle(requirements)
+def settled(detector: str, requirements: Requirements) -> SettledMethod:
+    """Set up a detector; a pause or a change back to an earlier rotation must not cost the set-up again.
+
+    Args:
+        detector: its name.
+        requirements: what is asked of it.
+
+    Returns:
+        The detector with its thresholds.
+
+    Raises:
+        ValueError: the beam holds too few pulses for the detector, or the false-plot rate is out of reach.
+    """
+    method = find_method(detector)
+    if requirements.pulses < method.fewest_pulses:
+        raise ValueError(
+            f"a burst of {requirements.pulses:.1f} pulses is too short for detector {detector}, "
+            f"which needs {method.fewest_pulses}"
+        )
+    return method.settle(requirements)

@@ -12,7 +12,8 @@ import numpy as np
 from primary_proc.calculators.integration.required_ratio import required_snr_db
 from primary_proc.calculators.pulse.single_pulse import threshold_for
 from primary_proc.calculators.pulse.target_models import TARGETS
-from primary_proc.choices import NORMALISERS, find_method
+from primary_proc.choices import NORMALISERS
+from primary_proc.design import settled
 from primary_proc.methods.designed_method import choose_program
 from primary_proc.methods.detection_method import SettledMethod
 from primary_proc.methods.requirements import Requirements
@@ -94,7 +95,7 @@ def predict_extractor(
     if name == "auto":
         name, method = choose_program(requirements)
     else:
-        method = find_method(name).settle(requirements)
+        method = settled(name, requirements)
     normaliser = NORMALISERS[parameters.normaliser](parameters, cells)
     return predict(name, method, requirements, normaliser.loss_db(method.noise_probability))
 
