@@ -71,7 +71,7 @@ def test_the_designer_takes_the_candidate_that_needs_the_least_signal(printed):
         (["--pfa", "0.5"], "out of reach"),
         (["--rings", "0"], "rings"),
         (["--n0", "1"], "no program"),
-        (["--n0", "1", "--detector", "3/4-2"], "too short"),
+        (["--n0", "1", "--detector", "3/4-2"], "too narrow"),
         (["--params", "missing.yaml"], "missing.yaml"),
     ],
 )

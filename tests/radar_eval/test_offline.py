@@ -117,7 +117,7 @@ def test_plots_with_more_fields_are_tracked_like_plots(replayed, tmp_path):
 
 
 def test_sweeps_that_the_parameters_do_not_fit_are_one_clear_error(fixture_bags, tmp_path):
-    with pytest.raises(EvaluationError, match=r"a beam of 1\.4 deg"):
+    with pytest.raises(EvaluationError, match=r"a beam that holds 1\.4 pulses"):
         run_offline(fixture_bags / "tiny_mcap", tmp_path / "out", progress=plain)
     assert not (tmp_path / "out").exists()
 

@@ -109,7 +109,7 @@ def settled(detector: str, requirements: Requirements) -> SettledMethod:
     method = find_method(detector)
     if requirements.pulses < method.fewest_pulses:
         raise ValueError(
-            f"a burst of {requirements.pulses:.1f} pulses is too short for detector {detector}, "
-            f"which needs {method.fewest_pulses}"
+            f"a beam that holds {requirements.pulses:.1f} pulses is too narrow for detector {detector}, "
+            f"which needs {method.fewest_pulses}; see beamwidth_deg"
         )
     return method.settle(requirements)

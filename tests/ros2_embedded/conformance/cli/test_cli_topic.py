@@ -153,8 +153,8 @@ def test_hz(ros2):
         r"^average rate: (\d+\.\d{3})\n"
         r"\tmin: \d+\.\d{3}s max: \d+\.\d{3}s std dev: \d+\.\d{5}s window: \d+$"
     )
-    # The mean of a second's intervals; a busy machine delays, but the number stays near.
-    assert 35 < float(rate[1]) < 65
+    # The mean of a second's intervals of the 50 Hz asked for; a busy machine delays, it does not hasten.
+    assert 20 < float(rate[1]) < 65
     code, _ = hz.finish(signal.SIGINT)
     assert code == signal.SIGINT
 
