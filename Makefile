@@ -3,7 +3,7 @@
 PYTHON ?= $(firstword $(foreach v,3.12 3.11 3.13,$(if $(shell python$(v) -c 'import ensurepip' 2>/dev/null && echo yes),python$(v))) python3)
 VENV := .venv
 BIN := $(VENV)/bin
-ROS_PACKAGES := radar_common radar_sim primary_proc secondary_proc radar_eval
+ROS_PACKAGES := radar_common radar_sim primary_proc secondary_proc bearing_tracker radar_eval
 INSTALLED := $(VENV)/installed
 WORKERS ?= 2
 

@@ -19,7 +19,10 @@ PLOTS_TOPIC = "radar/plots"
 TRACKS_TOPIC = "radar/tracks"
 BEARINGS_TOPIC = "passive/bearings"
 FUSED_BEARINGS_TOPIC = "fused/bearings"
+EMITTERS_TOPIC = "emitters"
+PLATFORM_TOPIC = "platform/odometry"
 TRUTH_TOPIC = "truth"
+CHANNEL_TRUTH_TOPIC = "truth/channels"
 
 SITE_FRAME = "map"
 RADAR_FRAME = "radar"
@@ -34,6 +37,22 @@ class TrackStatus(IntEnum):
     CONFIRMED = 1
     COASTING = 2
     ENDED = 3
+
+
+class EndReason(IntEnum):
+    """Why a track ended; `alive` while it has not."""
+
+    ALIVE = 0
+    MISSES = 1
+    """Too many scans in a row without a plot."""
+    SCORE = 2
+    """Its score has fallen as far as a row of misses would bring it."""
+    NOT_CONFIRMED = 3
+    """The rule of initiation gave the candidate up."""
+    TIME_WENT_BACK = 4
+    """The clock of the plots jumped back and tracking began anew."""
+    OUT_OF_COVERAGE = 5
+    """It left the range that is processed."""
 
 
 class BearingChannel(IntEnum):
@@ -73,6 +92,7 @@ TRACK = np.dtype(
         ("covariance", "<f4", (16,)),  # of (x, y, vx, vy), row by row
         ("id", "<u4"),  # never reused
         ("status", "u1"),  # TrackStatus
+        ("end_reason", "u1"),  # EndReason
         ("time_offset", "<f8"),  # s after the stamp, the time that the state belongs to
         ("speed", "<f4"),  # m/s
         ("course", "<f4"),  # rad clockwise from north
@@ -91,19 +111,46 @@ TRACK = np.dtype(
     ]
 )
 
+CHANNEL_STATES = 4
+"""States of one angle channel that a row of bearings has room for."""
+
 BEARING = np.dtype(
     [
-        ("azimuth", "<f8"),
-        ("azimuth_std", "<f4"),
-        ("rate", "<f4"),  # rad/s; NaN where not estimated
-        ("time_offset", "<f8"),
+        ("azimuth", "<f8"),  # rad clockwise from north, [0, 2 pi)
+        ("azimuth_std", "<f4"),  # rad
+        ("elevation", "<f4"),  # rad over the horizon; NaN where not measured
+        ("elevation_std", "<f4"),  # rad; NaN where not measured
+        ("rate", "<f4"),  # of the azimuth, rad/s; NaN where not estimated
+        ("rate_std", "<f4"),  # rad/s; NaN where not estimated
+        ("time_offset", "<f8"),  # s after the stamp
         ("id", "<u4"),  # source or target; 0 where the sensor gives no identity
         ("channel", "u1"),  # BearingChannel
-        (
-            "health",
-            "<f4",
-            (4,),
-        ),  # probability of each state of the channel; NaN where not estimated
+        # Probability of each state of a channel, the undisturbed one first; NaN where not estimated or no such state.
+        ("active_health", "<f4", (CHANNEL_STATES,)),
+        ("passive_health", "<f4", (CHANNEL_STATES,)),
+    ]
+)
+
+EMITTER = np.dtype(
+    [
+        ("x", "<f4"),  # m east; in the middle of what is possible while the range is unknown
+        ("y", "<f4"),  # m north
+        ("z", "<f4"),  # m up
+        ("vx", "<f4"),  # m/s east
+        ("vy", "<f4"),  # m/s north
+        ("covariance", "<f4", (16,)),  # of (x, y, vx, vy), row by row
+        ("id", "<u4"),  # of the sensor where it gives one, else its own; never reused
+        ("status", "u1"),  # TrackStatus
+        ("range_known", "u1"),  # 0 while only the direction is known: a ray, not an ellipse
+        ("time_offset", "<f8"),  # s after the stamp, the time that the state belongs to
+        ("azimuth", "<f8"),  # rad clockwise from north, from the platform
+        ("azimuth_std", "<f4"),  # rad
+        ("range", "<f4"),  # m from the platform
+        ("range_std", "<f4"),  # m
+        ("bound_std", "<f4"),  # m, Cramer-Rao bound of the position along the estimated geometry
+        ("hits", "<u4"),  # bearings used
+        ("rejected", "<u4"),  # bearings of this identity that did not fit
+        ("age", "<f4"),  # s since the first bearing
     ]
 )
 

@@ -20,6 +20,7 @@ _PACKED = np.dtype(
         ("kinematic", "<f4", (21,)),  # x, y, z, vx, vy, covariance
         ("id", "<u4"),
         ("status", "u1"),
+        ("end_reason", "u1"),
         ("time", "<f8"),
         ("velocity", "<f4", (2,)),  # speed, course
         ("plot", "<f8", (2,)),  # range, azimuth
