@@ -12,9 +12,11 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-# How long an example takes is the machine's business; benchmarks measure time, tests do not.
-settings.register_profile("project", deadline=None)
-settings.load_profile("project")
+# How long an example takes is the machine's business; benchmarks measure time, tests do not. A run repeats the last
+# one example by example; HYPOTHESIS_PROFILE=explore looks for new ones.
+settings.register_profile("project", deadline=None, derandomize=True)
+settings.register_profile("explore", deadline=None)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "project"))
 
 # Every process of a parallel run takes a domain of its own, whatever it inherits; those from 60 on are the command's,
 # and 102 and above collide with ephemeral ports.
