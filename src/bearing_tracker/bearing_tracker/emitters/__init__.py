@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Emitters located from bearings that a moving observer takes."""

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is known of emitters, one row of each array an emitter: before the first bearing, and after it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Self
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """Arrays that have the emitter on axis 0."""
+
+    def __len__(self) -> int:
+        """Count the emitters."""
+        return len(getattr(self, fields(self)[0].name))
+
+    def take(self, index: npt.ArrayLike) -> Self:
+        """Keep some emitters.
+
+        Args:
+            index: their numbers in any order, or a mask of shape (n,).
+
+        Returns:
+            These alone.
+        """
+        chosen = np.asarray(index)
+        return type(self)(*(_take(getattr(self, item.name), chosen) for item in fields(self)))
+
+    def joined(self, other: Self) -> Self:
+        """Append emitters.
+
+        Args:
+            other: made by the same filter.
+
+        Returns:
+            These emitters, then the others.
+        """
+        pairs = [(getattr(self, item.name), getattr(other, item.name)) for item in fields(self)]
+        return type(self)(*(_join(first, second) for first, second in pairs))
+
+
+@dataclass(frozen=True, slots=True)
+class Prior(Rows):
+    """What is known of emitters before their first bearing.
+
+    Attributes:
+        range_low: smallest distance from the observer, metres, shape (n,).
+        range_high: largest distance, metres, shape (n,).
+        range_mean: expected distance, metres, shape (n,); NaN where nothing but the limits is known: then every octave
+            of range between them is as likely as another.
+        range_std: standard deviation about `range_mean`, metres, shape (n,); NaN where that is NaN.
+        velocity: expected, m/s east and north, shape (n, 2).
+        velocity_covariance: of it, shape (n, 2, 2).
+    """
+
+    range_low: FloatArray
+    range_high: FloatArray
+    range_mean: FloatArray
+    range_std: FloatArray
+    velocity: FloatArray
+    velocity_covariance: FloatArray
+
+    @classmethod
+    def between(cls, low: float, high: float, *, speed_std: float, emitters: int) -> Prior:
+        """Know limits of the range and the usual speed only.
+
+        Args:
+            low: smallest distance, metres.
+            high: largest distance, metres.
+            speed_std: standard deviation of either component of the velocity, m/s.
+            emitters: number n of them.
+
+        Returns:
+            The same prior for each.
+
+        Raises:
+            ValueError: the limits are not 0 < low < high, or the deviation is not positive.
+        """
+        if not (0.0 < low < high < np.inf and 0.0 < speed_std < np.inf):
+            raise ValueError(f"no prior between {low} m and {high} m with speed {speed_std} m/s")
+        unknown = np.full(emitters, np.nan)
+        covariance = np.tile(speed_std**2 * np.eye(2), (emitters, 1, 1))
+        return cls(
+            np.full(emitters, low),
+            np.full(emitters, high),
+            unknown,
+            unknown,
+            np.zeros((emitters, 2)),
+            covariance,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Geometry(Rows):
+    """From where an emitter was heard: a fixed number K of places, neighbours merged when they are full.
+
+    Attributes:
+        time: mean time of the bearings of a place, seconds since the first bearing, shape (n, K).
+        observer: mean position, metres east and north, shape (n, K, 2).
+        weight: sum of 1 / std^2 of the bearings, 1/rad^2, shape (n, K); zero where there is no bearing yet.
+        places: in use, shape (n,).
+        now: seconds since the first bearing, shape (n,).
+    """
+
+    time: FloatArray
+    observer: FloatArray
+    weight: FloatArray
+    places: npt.NDArray[np.intp]
+    now: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Belief(Rows):
+    """What a filter knows of emitters; to be kept and handed back, not to be read.
+
+    It is a mixture of Gaussian densities of (x, y, vx, vy) and, where the filter estimates it, the correlated bearing
+    error g: B bins of range by M motion models, dimension D = 4 or 5.
+
+    Attributes:
+        mean: shape (n, B, M, D).
+        covariance: shape (n, B, M, D, D).
+        weight: probabilities, shape (n, B, M), of sum one.
+        observer: where the observer is now, metres east and north, shape (n, 2).
+        observer_velocity: its mean velocity over the last step, m/s, shape (n, 2).
+        geometry: where the bearings came from.
+        start: mean of (x, y, vx, vy) at the first bearing, shape (n, 4).
+        start_covariance: of it, shape (n, 4, 4).
+        prior: as it was given.
+    """
+
+    mean: FloatArray
+    covariance: FloatArray
+    weight: FloatArray
+    observer: FloatArray
+    observer_velocity: FloatArray
+    geometry: Geometry
+    start: FloatArray
+    start_covariance: FloatArray
+    prior: Prior
+
+
+def _take(value: npt.NDArray | Rows, chosen: npt.NDArray) -> npt.NDArray | Rows:
+    return value.take(chosen) if isinstance(value, Rows) else value[chosen]
+
+
+def _join(first: npt.NDArray | Rows, second: npt.NDArray | Rows) -> npt.NDArray | Rows:
+    if isinstance(first, Rows) and isinstance(second, Rows):
+        return first.joined(second)
+    return np.concatenate([first, second])
