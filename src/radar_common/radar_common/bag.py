@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tables in rosbag2 recordings, read and written without a running ROS.
+"""Tables and platform states in rosbag2 recordings, read and written without a running ROS.
 
 Needs the package `rosbags` (pip install rosbags), which brings storage and serialisation.
 """
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Final, Self
+from typing import Any, Final, Self
 
 import numpy as np
 from rosbags.highlevel import AnyReader, AnyReaderError
@@ -28,9 +28,11 @@ from rosbags.typesys import Stores, get_typestore
 
 from radar_common.cloud import MessageTypes, TableError, decode, encode
 from radar_common.health import Health
+from radar_common.odometry import OdometryTypes, PlatformState, decode_odometry, encode_odometry
 from radar_common.tables import NANOSECONDS, Table
 
 CLOUD = "sensor_msgs/msg/PointCloud2"
+ODOMETRY = "nav_msgs/msg/Odometry"
 STORAGES = {"sqlite3": StoragePlugin.SQLITE3, "mcap": StoragePlugin.MCAP}
 
 _STORE = get_typestore(Stores.ROS2_JAZZY)
@@ -40,6 +42,18 @@ _TYPES = MessageTypes(
     Header=_STORE.types["std_msgs/msg/Header"],
     Time=_STORE.types["builtin_interfaces/msg/Time"],
     bytes_of=lambda data: data,
+)
+_ODOMETRY_TYPES = OdometryTypes(
+    Odometry=_STORE.types[ODOMETRY],
+    PoseWithCovariance=_STORE.types["geometry_msgs/msg/PoseWithCovariance"],
+    Pose=_STORE.types["geometry_msgs/msg/Pose"],
+    Point=_STORE.types["geometry_msgs/msg/Point"],
+    Quaternion=_STORE.types["geometry_msgs/msg/Quaternion"],
+    TwistWithCovariance=_STORE.types["geometry_msgs/msg/TwistWithCovariance"],
+    Twist=_STORE.types["geometry_msgs/msg/Twist"],
+    Vector3=_STORE.types["geometry_msgs/msg/Vector3"],
+    Header=_STORE.types["std_msgs/msg/Header"],
+    Time=_STORE.types["builtin_interfaces/msg/Time"],
 )
 _JAZZY_BAG_VERSION: Final = 9
 _FOREVER = QosTime(9223372036, 854775807)
@@ -61,7 +75,7 @@ class BagError(RuntimeError):
 
 
 class BagWriter:
-    """Writes tables into a new bag, as a context manager."""
+    """Writes tables and platform states into a new bag, as a context manager."""
 
     def __init__(self, path: str | Path, *, storage: str = "mcap") -> None:
         """Prepare a bag; nothing is written before the context is entered.
@@ -107,16 +121,32 @@ class BagWriter:
             log_time: nanoseconds at which the message counts as received; None takes the time of its latest row,
                 when a live message would have been sent, but not before the message ahead of it on the topic.
         """
-        if topic not in self._connections:
-            self._connections[topic] = self._writer.add_connection(
-                f"/{topic}", CLOUD, typestore=_STORE, offered_qos_profiles=[_RELIABLE]
-            )
         if log_time is None:
             latest = table.rows["time_offset"].max(initial=0.0)
             log_time = table.stamp + round(float(latest) * NANOSECONDS)
             log_time = max(log_time, self._latest.get(topic, log_time))
         self._latest[topic] = log_time
-        data = _STORE.serialize_cdr(encode(table, _TYPES), CLOUD)
+        self._append(topic, CLOUD, encode(table, _TYPES), log_time)
+
+    def write_odometry(
+        self, topic: str, state: PlatformState, *, log_time: int | None = None
+    ) -> None:
+        """Append a platform's state.
+
+        Args:
+            topic: name without the leading slash.
+            state: what to write, as nav_msgs/Odometry.
+            log_time: nanoseconds at which the message counts as received; None takes its stamp.
+        """
+        log_time = state.stamp if log_time is None else log_time
+        self._append(topic, ODOMETRY, encode_odometry(state, _ODOMETRY_TYPES), log_time)
+
+    def _append(self, topic: str, kind: str, message: Any, log_time: int) -> None:
+        if topic not in self._connections:
+            self._connections[topic] = self._writer.add_connection(
+                f"/{topic}", kind, typestore=_STORE, offered_qos_profiles=[_RELIABLE]
+            )
+        data = _STORE.serialize_cdr(message, kind)
         self._writer.write(self._connections[topic], log_time, data)
 
 
@@ -153,6 +183,39 @@ def read_tables(
                 try:
                     message = reader.deserialize(data, CLOUD)
                     yield topic, decode(message, expected[topic])
+                except (TableError, SerdeError) as error:
+                    if health is not None:
+                        health.drop(f"{topic}: {error}")
+    except (AnyReaderError, OSError) as error:
+        raise BagError(f"bag {path}: {error}") from error
+
+
+def read_odometry(
+    path: str | Path, topic: str, health: Health | None = None
+) -> Iterator[PlatformState]:
+    """Read the states of a platform in order of their log time.
+
+    Args:
+        path: folder of the bag.
+        topic: name without the leading slash.
+        health: where messages that hold no state are counted, which are dropped.
+
+    Yields:
+        States.
+
+    Raises:
+        BagError: the bag is missing, truncated or not readable.
+    """
+    try:
+        with AnyReader([Path(path)], default_typestore=_STORE) as reader:
+            connections = [
+                c for c in reader.connections if (c.topic, c.msgtype) == (f"/{topic}", ODOMETRY)
+            ]
+            if not connections:
+                return
+            for _, _, data in reader.messages(connections):
+                try:
+                    yield decode_odometry(reader.deserialize(data, ODOMETRY))
                 except (TableError, SerdeError) as error:
                     if health is not None:
                         health.drop(f"{topic}: {error}")
