@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from secondary_proc.smoothing import Measured
-from secondary_proc.smoothing.alpha_beta import (
-    AlphaBetaSmoother,
+from secondary_proc.calculators.alpha_beta_gains import (
     growing_coefficients,
     manoeuvre_intensity,
     optimal_alpha,
     optimal_coefficients,
 )
+from secondary_proc.smoothing import Measured
+from secondary_proc.smoothing.alpha_beta import AlphaBetaSmoother
 
 PERIOD = 4.0
 

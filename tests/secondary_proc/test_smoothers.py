@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from radar_common.frames import enu_covariance, enu_from_polar
 from secondary_proc.motion import predict_covariance, predict_state
-from secondary_proc.smoothing import SMOOTHERS, Measured
-from secondary_proc.smoothing.kalman import MANOEUVRE_THRESHOLD, KalmanSmoother
+from secondary_proc.smoothing import SMOOTHERS, Measured, SmoothingParameters
+from secondary_proc.smoothing.kalman import KalmanSmoother
+from secondary_proc.smoothing.manoeuvre import ManoeuvreDetector
 
 PERIOD = 4.0
 
@@ -57,7 +58,7 @@ def test_prediction_is_the_matrix_product(seconds, density, seed):
 )
 def test_covariances_stay_symmetric_and_positive_definite(name, seed, range_std, azimuth_std, far):
     random = np.random.default_rng(seed)
-    smoother = SMOOTHERS[name](0.3, 8.0)
+    smoother = SMOOTHERS[name](SmoothingParameters())
     count = 4
     state = random.normal(size=(count, 4)) * 100.0
     covariance = random_covariances(random, count)
@@ -92,7 +93,7 @@ def test_covariances_stay_symmetric_and_positive_definite(name, seed, range_std,
 def test_kalman_is_that_of_filterpy_on_the_same_plots():
     random = np.random.default_rng(5)
     density = 0.4
-    smoother = KalmanSmoother(density, density)
+    smoother = KalmanSmoother(density, density, ManoeuvreDetector(3.0))
     peer = KalmanFilter(dim_x=4, dim_z=2)
     peer.H = np.eye(2, 4)
     peer.x = np.array([[20e3], [30e3], [100.0], [-150.0]])
@@ -123,13 +124,14 @@ def test_kalman_is_that_of_filterpy_on_the_same_plots():
 
 
 def test_a_surprise_opens_the_bandwidth_and_it_closes_again():
-    smoother = KalmanSmoother(0.1, 200.0)
+    detector = ManoeuvreDetector(3.0)
+    smoother = KalmanSmoother(0.1, 200.0, detector)
     state = np.zeros((2, 4))
     covariance = np.diag([50.0, 50.0, 5.0, 5.0])[None].repeat(2, axis=0) ** 2
     error = 20.0**2 * np.eye(2)[None].repeat(2, axis=0)
     # Just below and just above the threshold, as the quiet filter sees it.
     spread = 50.0**2 + (5.0 * PERIOD) ** 2 + 0.1 * PERIOD**3 / 3 + 20.0**2
-    jump = np.sqrt(spread * MANOEUVRE_THRESHOLD) * np.array([0.99, 1.01])
+    jump = np.sqrt(spread * detector.thresholds[1]) * np.array([0.99, 1.01])
     position = np.stack([jump, np.zeros(2)], axis=1)
     each = np.full(2, PERIOD)
     first = smoother.update(

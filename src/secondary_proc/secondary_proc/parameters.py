@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from radar_common.parameters import ParameterError, Parameters, parameter
+from radar_common.parameters import ParameterError, parameter
 from secondary_proc.association import ASSOCIATIONS
 from secondary_proc.initiation import INITIATIONS
-from secondary_proc.smoothing import SMOOTHERS
+from secondary_proc.smoothing import SMOOTHERS, SmoothingParameters
 
 
 @dataclass(frozen=True, kw_only=True)
-class TrackerParameters(Parameters):
+class TrackerParameters(SmoothingParameters):
     """Parameters of the tracker."""
 
     scan_period: float = parameter(
@@ -67,20 +67,6 @@ class TrackerParameters(Parameters):
         12, "scans in a row without a plot that end a confirmed track", low=1, high=50
     )
     smoother: str = parameter("kalman", "filter of position and velocity", choices=tuple(SMOOTHERS))
-    acceleration: float = parameter(
-        0.3,
-        "standard deviation of the accelerations of a target between manoeuvres",
-        unit="m/s^2",
-        low=0.0,
-        high=100.0,
-    )
-    manoeuvre_acceleration: float = parameter(
-        8.0,
-        "standard deviation of the accelerations in a manoeuvre; gates stay open for it",
-        unit="m/s^2",
-        low=0.0,
-        high=1000.0,
-    )
     association: str = parameter(
         "global_nearest_neighbour",
         "how plots are given to tracks that compete for them",
@@ -130,6 +116,7 @@ class TrackerParameters(Parameters):
 
     def check(self) -> None:
         """Refuse rules that nothing can satisfy."""
+        super().check()
         if self.confirm_hits > self.confirm_window:
             raise ParameterError(
                 f"confirm_hits {self.confirm_hits} do not fit into a confirm_window of "
@@ -138,9 +125,4 @@ class TrackerParameters(Parameters):
         if self.minimum_speed >= self.maximum_speed:
             raise ParameterError(
                 f"minimum_speed {self.minimum_speed} must be below maximum_speed {self.maximum_speed}"
-            )
-        if self.acceleration > self.manoeuvre_acceleration:
-            raise ParameterError(
-                f"acceleration {self.acceleration} must not exceed manoeuvre_acceleration "
-                f"{self.manoeuvre_acceleration}"
             )

@@ -64,9 +64,7 @@ class Tracks:
         self._initiation = INITIATIONS[parameters.initiation](
             parameters.confirm_hits, parameters.confirm_window, parameters.tentative_misses
         )
-        self._smoother = SMOOTHERS[parameters.smoother](
-            parameters.acceleration, parameters.manoeuvre_acceleration
-        )
+        self._smoother = SMOOTHERS[parameters.smoother](parameters)
         self._store.set_memory(self._smoother.memory)
         self._schedule_all()
 

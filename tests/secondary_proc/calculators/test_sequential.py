@@ -18,6 +18,10 @@ from secondary_proc.calculators.alpha_beta_dynamics import (
     speed_jump_square,
     transfer,
 )
+from secondary_proc.calculators.alpha_beta_gains import (
+    growing_coefficients,
+    steady_second_increment_gains,
+)
 from secondary_proc.calculators.alpha_beta_optimum import optimal_gains, total_error
 from secondary_proc.calculators.sequential_filter import (
     Gains,
@@ -25,9 +29,7 @@ from secondary_proc.calculators.sequential_filter import (
     bounded_gains,
     run_filter,
     second_increment_gains,
-    steady_second_increment_gains,
 )
-from secondary_proc.smoothing.alpha_beta import growing_coefficients
 
 ZERO = (np.zeros(()), np.zeros(()))
 stable = st.tuples(st.floats(0.1, 1.0), st.floats(0.05, 1.0))

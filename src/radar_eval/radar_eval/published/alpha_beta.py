@@ -10,8 +10,9 @@ import numpy.typing as npt
 
 from radar_eval.published.result import Row, to_digits
 from radar_eval.published.sequential_gains import sequential_gains
+from secondary_proc.calculators.alpha_beta_gains import growing_coefficients
 from secondary_proc.motion import predict_covariance, two_point_state
-from secondary_proc.smoothing.alpha_beta import AlphaBetaSmoother, growing_coefficients
+from secondary_proc.smoothing.alpha_beta import AlphaBetaSmoother
 from secondary_proc.smoothing.interface import Measured
 
 FloatArray = npt.NDArray[np.float64]

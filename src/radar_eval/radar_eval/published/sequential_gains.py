@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from radar_eval.published.result import Row
+from secondary_proc.calculators.alpha_beta_gains import steady_second_increment_gains
 from secondary_proc.calculators.line_estimator import line_position_weights, line_velocity_weights
 from secondary_proc.calculators.sequential_filter import (
     Gains,
@@ -16,7 +17,6 @@ from secondary_proc.calculators.sequential_filter import (
     bounded_gains,
     run_filter,
     second_increment_gains,
-    steady_second_increment_gains,
 )
 from secondary_proc.calculators.velocity_observations import (
     aided_position_weights,

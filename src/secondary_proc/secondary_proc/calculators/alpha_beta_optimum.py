@@ -14,9 +14,12 @@ import numpy as np
 from scipy.optimize import brentq
 
 from secondary_proc.calculators.alpha_beta_dynamics import dynamic_error, random_variance
-from secondary_proc.smoothing.alpha_beta import manoeuvre_intensity, optimal_alpha
+from secondary_proc.calculators.alpha_beta_gains import (
+    CRITERIA,
+    manoeuvre_intensity,
+    optimal_alpha,
+)
 
-CRITERIA = ("smoothed", "predicted")
 _LEAST = 1e-9
 
 
@@ -73,12 +76,10 @@ def optimal_gains(intensity: float, criterion: str = "smoothed") -> Optimum:
         raise ValueError(f"no criterion {criterion!r}; there are {', '.join(CRITERIA)}")
     if not 1e-20 <= intensity <= 1e6:
         raise ValueError(f"no optimum is computed for the intensity {intensity:g}")
-    if criterion == "smoothed":
-        beta = _solve(lambda b: float(manoeuvre_intensity(b)), intensity, 2.0)
-        alpha = float(optimal_alpha(beta))
-    else:
-        beta = _solve(lambda b: 2.0 * b**2.5 / (2.0 - np.sqrt(b)) ** 3, intensity, 4.0)
-        alpha = float(np.sqrt(beta) - beta / 2.0)
+    # Where beta approaches 2 or 4 the intensity grows without bound.
+    most = 2.0 if criterion == "smoothed" else 4.0
+    beta = _solve(lambda b: float(manoeuvre_intensity(b, criterion)), intensity, most)
+    alpha = float(optimal_alpha(beta, criterion))
     return Optimum(alpha, beta, total_error(criterion, alpha, beta, intensity))
 
 

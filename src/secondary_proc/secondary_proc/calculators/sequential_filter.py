@@ -9,10 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from secondary_proc.calculators.alpha_beta_gains import aided_coefficients, growing_coefficients
 from secondary_proc.calculators.rule_chain import FloatArray
-from secondary_proc.smoothing.alpha_beta import growing_coefficients
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,25 +75,6 @@ def second_increment_gains(plots: int, intensity: float) -> Gains:
     return Gains(gains[:, 0], gains[:, 1], none, none)
 
 
-def steady_second_increment_gains(intensity: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """What `second_increment_gains` tends to, in closed form.
-
-    The steady covariance gives beta = alpha^2 / (2 - alpha) and beta^2 = (sigma_gamma / sigma_y)^2 (1 - alpha).
-
-    Args:
-        intensity: rms second increment over the error of a plot, any shape.
-
-    Returns:
-        (alpha, beta), same shape.
-    """
-    ratio = np.asarray(intensity, dtype=float)
-    # With r^2 = 1 - alpha both equations become one for r + 1/r.
-    double = (ratio + np.sqrt(ratio**2 + 16.0)) / 2.0
-    root = 2.0 / (double + np.sqrt(np.maximum(double**2 - 4.0, 0.0)))
-    alpha = 1.0 - root**2
-    return np.asarray(alpha), np.asarray(alpha**2 / (2.0 - alpha))
-
-
 def aided_gains(plots: int, ratio: float) -> Gains:
     """Growing memory with observed velocity, equal to the least-squares line through all observations.
 
@@ -107,14 +87,7 @@ def aided_gains(plots: int, ratio: float) -> Gains:
     Returns:
         Gains of plots 3 to n.
     """
-    n = np.arange(3.0, plots + 1)
-    common = n * (n**2 - 1.0 + 12.0 * ratio)
-    return Gains(
-        2.0 * ((n - 1.0) * (2.0 * n - 1.0) + 6.0 * ratio) / common,
-        6.0 * (n - 1.0) / common,
-        6.0 * ratio * (n - 1.0) / common,
-        12.0 * ratio / common,
-    )
+    return Gains(*aided_coefficients(np.arange(3, plots + 1), ratio))
 
 
 def run_filter(

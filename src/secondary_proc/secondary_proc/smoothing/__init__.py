@@ -9,13 +9,19 @@ from secondary_proc.motion import noise_density
 from secondary_proc.smoothing.alpha_beta import AlphaBetaSmoother
 from secondary_proc.smoothing.interface import Measured, Smoothed, Smoother, joseph_update
 from secondary_proc.smoothing.kalman import KalmanSmoother
+from secondary_proc.smoothing.manoeuvre import ManoeuvreDetector
+from secondary_proc.smoothing.parameters import SmoothingParameters
 
-SMOOTHERS: dict[str, Callable[[float, float], Smoother]] = {
-    "kalman": lambda quiet, manoeuvre: KalmanSmoother(
-        noise_density(quiet), noise_density(manoeuvre)
+SMOOTHERS: dict[str, Callable[[SmoothingParameters], Smoother]] = {
+    "kalman": lambda p: KalmanSmoother(
+        noise_density(p.acceleration),
+        noise_density(p.manoeuvre_acceleration),
+        ManoeuvreDetector(p.manoeuvre_sigmas),
     ),
-    "alpha_beta": lambda quiet, manoeuvre: AlphaBetaSmoother(quiet, noise_density(quiet)),
+    "alpha_beta": lambda p: AlphaBetaSmoother(
+        p.acceleration, noise_density(p.acceleration), p.alpha_beta_criterion
+    ),
 }
-"""Smoothers by name; they are made of the accelerations between and in manoeuvres, m/s^2."""
+"""Smoothers by name, each made of the parameters."""
 
-__all__ = ["SMOOTHERS", "Measured", "Smoothed", "Smoother", "joseph_update"]
+__all__ = ["SMOOTHERS", "Measured", "Smoothed", "Smoother", "SmoothingParameters", "joseph_update"]

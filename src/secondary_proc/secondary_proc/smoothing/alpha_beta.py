@@ -10,75 +10,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from secondary_proc.calculators.alpha_beta_gains import growing_coefficients, steady_coefficients
 from secondary_proc.motion import FloatArray, predict_covariance, predict_state
 from secondary_proc.smoothing.interface import Measured, Smoothed, joseph_update
-
-
-def growing_coefficients(n: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Coefficients that make the recursion equal to the least-squares line through all plots so far.
-
-    Source: Kuzmin 1967, (4.86) and (4.82a).
-
-    Args:
-        n: number of plots, the new one included, at least 2, any shape.
-
-    Returns:
-        (alpha, beta), same shape.
-    """
-    n = np.asarray(n, dtype=float)
-    return 2 * (2 * n - 1) / (n * (n + 1)), 6 / (n * (n + 1))
-
-
-def manoeuvre_intensity(beta: npt.ArrayLike) -> FloatArray:
-    """Intensity for which given coefficients are optimal.
-
-    Source: Kuzmin 1967, after (4.111): gamma^2 = 4 beta^3 / (alpha (4 - 2 alpha - beta)^2) with the alpha of
-    `optimal_alpha`.
-
-    Args:
-        beta: rate coefficient in (0, 2), any shape.
-
-    Returns:
-        Square of (acceleration times period squared over measurement error), same shape.
-    """
-    beta = np.asarray(beta, dtype=float)
-    alpha = optimal_alpha(beta)
-    return 4 * beta**3 / (alpha * (4 - 2 * alpha - beta) ** 2)
-
-
-def optimal_alpha(beta: npt.ArrayLike) -> FloatArray:
-    """Position coefficient that belongs to a rate coefficient by the criterion of the smoothed position.
-
-    Source: Kuzmin 1967, (4.111).
-
-    Args:
-        beta: rate coefficient in (0, 2), any shape.
-
-    Returns:
-        alpha, same shape.
-    """
-    beta = np.asarray(beta, dtype=float)
-    return 0.5 * np.sqrt(4 * beta - beta**2)
-
-
-_BETA = np.concatenate([np.geomspace(1e-6, 0.1, 400, endpoint=False), np.linspace(0.1, 1.95, 400)])
-_LOG_INTENSITY = np.log(manoeuvre_intensity(_BETA))
-
-
-def optimal_coefficients(intensity: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Constant coefficients that minimise random plus dynamic error of the smoothed position.
-
-    Args:
-        intensity: square of (acceleration times period squared over measurement error), any shape.
-
-    Returns:
-        (alpha, beta), same shape.
-    """
-    log_intensity = np.log(np.maximum(intensity, 1e-18))
-    beta = np.exp(np.interp(log_intensity, _LOG_INTENSITY, np.log(_BETA)))
-    return optimal_alpha(beta), beta
 
 
 class AlphaBetaSmoother:
@@ -86,15 +21,19 @@ class AlphaBetaSmoother:
 
     memory: np.dtype[Any] = np.dtype(float)
 
-    def __init__(self, acceleration: float, noise_density: float) -> None:
+    def __init__(
+        self, acceleration: float, noise_density: float, criterion: str = "smoothed"
+    ) -> None:
         """Set what the filter must follow.
 
         Args:
             acceleration: of a manoeuvre that the coefficients are the optimum for, m/s^2.
             noise_density: power spectral density of the acceleration that the covariance accounts for, m^2/s^3.
+            criterion: what the coefficients are the best for, one of GAIN_RULES.
         """
         self._acceleration = acceleration
         self._density = noise_density
+        self._criterion = criterion
 
     def update(self, measured: Measured) -> Smoothed:
         """Combine prediction and plot.
@@ -127,7 +66,7 @@ class AlphaBetaSmoother:
         along = xx * sine**2 + 2 * xy * sine * cosine + yy * cosine**2
         variance = np.stack([along, xx + yy - along], axis=1)
         second_increment = self._acceleration * measured.seconds[:, None] ** 2
-        steady = optimal_coefficients(second_increment**2 / variance)
+        steady = steady_coefficients(second_increment**2 / variance, self._criterion)
         growing = growing_coefficients(measured.hits[:, None])
         bounded = steady[0] > growing[0]
         return np.where(bounded, steady[0], growing[0]), np.where(bounded, steady[1], growing[1])

@@ -18,9 +18,8 @@ from secondary_proc.motion import (
     unit_noise,
 )
 from secondary_proc.smoothing.interface import Measured, Smoothed, joseph_update
+from secondary_proc.smoothing.manoeuvre import ManoeuvreDetector
 
-MANOEUVRE_THRESHOLD = 12.0
-"""Normalised innovation squared that quiet flight exceeds once in 400 plots (chi-square, two degrees of freedom)."""
 _FORGETTING = 0.5
 
 
@@ -29,15 +28,19 @@ class KalmanSmoother:
 
     memory: np.dtype[Any] = np.dtype(float)
 
-    def __init__(self, quiet_density: float, manoeuvre_density: float) -> None:
+    def __init__(
+        self, quiet_density: float, manoeuvre_density: float, detector: ManoeuvreDetector
+    ) -> None:
         """Set the two levels of the process noise.
 
         Args:
             quiet_density: power spectral density of the acceleration between manoeuvres, m^2/s^3.
             manoeuvre_density: the same in a manoeuvre.
+            detector: of the innovations that begin one.
         """
         self._quiet = quiet_density
         self._manoeuvre = manoeuvre_density
+        self._detector = detector
 
     def update(self, measured: Measured) -> Smoothed:
         """Combine prediction and plot.
@@ -53,7 +56,7 @@ class KalmanSmoother:
         innovation = measured.position - state[:, :2]
         covariance = predict_covariance(measured.covariance, seconds, self._quiet)
         expected = covariance[:, :2, :2] + error
-        fresh = normalised_square(innovation, expected)[0] > MANOEUVRE_THRESHOLD
+        fresh = self._detector.declared(normalised_square(innovation, expected)[0], 2)
         intensity = np.where(fresh, 1.0, _FORGETTING * measured.memory)
         if np.count_nonzero(intensity):
             more = (self._manoeuvre - self._quiet) * intensity
