@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from radar_common.parameters import ParameterError, parameter
 from secondary_proc.association import ASSOCIATIONS
-from secondary_proc.initiation import INITIATIONS
+from secondary_proc.initiation import DROP_RULES, INITIATIONS
 from secondary_proc.smoothing import SMOOTHERS, SmoothingParameters
 
 
@@ -24,7 +24,8 @@ class TrackerParameters(SmoothingParameters):
     )
     initiation: str = parameter(
         "likelihood_ratio",
-        "rule that confirms tracks: a likelihood ratio set by false_tracks_per_hour, or l plots in m scans",
+        "rule that confirms tracks: a likelihood ratio set by false_tracks_per_hour, l plots in m scans, or Wald's "
+        "test on hits and misses alone",
         choices=tuple(INITIATIONS),
     )
     confirm_hits: int = parameter(
@@ -62,6 +63,18 @@ class TrackerParameters(SmoothingParameters):
     )
     tentative_misses: int = parameter(
         2, "scans in a row without a plot that end a tentative track", low=1, high=20
+    )
+    drop_rule: str = parameter(
+        "rule",
+        "what ends a tentative track: its rule (for likelihood_ratio these are misses), tentative_misses, or a score "
+        "that has become too low",
+        choices=DROP_RULES,
+    )
+    missed_targets: float = parameter(
+        0.05,
+        "share of targets' tentative tracks that a low score may end; the next pair of plots opens another",
+        low=1e-6,
+        high=0.5,
     )
     confirmed_misses: int = parameter(
         12, "scans in a row without a plot that end a confirmed track", low=1, high=50

@@ -61,9 +61,7 @@ class Tracks:
         self.period = rotation.period
         self._quiet = noise_density(parameters.acceleration)
         self._manoeuvre = noise_density(parameters.manoeuvre_acceleration)
-        self._initiation = INITIATIONS[parameters.initiation](
-            parameters.confirm_hits, parameters.confirm_window, parameters.tentative_misses
-        )
+        self._initiation = INITIATIONS[parameters.initiation](parameters)
         self._smoother = SMOOTHERS[parameters.smoother](parameters)
         self._store.set_memory(self._smoother.memory)
         self._schedule_all()

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from secondary_proc.calculators.rule_chain import FloatArray, rule_chain, step
-from secondary_proc.initiation.l_of_m import CONFIRMED, IDLE
+from secondary_proc.calculators.rule_chain import CONFIRMED, IDLE, FloatArray, rule_chain, step
 
 
 def occupied_gate(mean: npt.ArrayLike) -> FloatArray:

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The automaton of a confirmation rule l/m that also gives a track up after k misses in a row.
+"""The automaton of a rule that confirms by l plots in any m scans and may give up after k misses in a row.
 
-Source: Kuzmin 1967, § 4.3.2, (4.15) for m/m and figure 3.16 for 3/4; here for any l, m and k.
+Source: Kuzmin 1967, § 4.3.2, (4.15) for m/m and figure 3.16 for 3/4. For any l, m and k it is built here by
+enumeration: a state is what has been seen since the oldest plot that can still count. The tracker steps it by plots,
+the calculators by probabilities.
 """
 
 from __future__ import annotations
@@ -11,10 +13,12 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from secondary_proc.initiation.l_of_m import CONFIRMED, IDLE, automaton
+IDLE = 0
+CONFIRMED = 1
 
 FloatArray = npt.NDArray[np.float64]
 StateArray = npt.NDArray[np.intp]
+_Word = tuple[int, ...]
 
 _MOST_STATES = 256
 
@@ -37,29 +41,27 @@ def rule_chain(hits: int, window: int, drop_misses: int | None = None) -> StateA
     """
     if not 1 <= hits <= window or (drop_misses is not None and drop_misses < 1):
         raise ValueError(f"no rule {hits}/{window} that drops after {drop_misses} misses")
-    try:
-        rule = automaton(hits, window)
-    except OverflowError:
-        raise ValueError(f"the automaton of {hits}/{window} has too many states") from None
-    if len(rule) > _MOST_STATES:
-        raise ValueError(f"the automaton of {hits}/{window} has too many states")
-    if drop_misses is None:
-        return rule.astype(np.intp)
-    numbers = {(IDLE, 0): IDLE, (CONFIRMED, 0): CONFIRMED}
-    rows: list[list[int]] = []
-    pending = list(numbers)
-    for state, misses in pending:
+    numbers: dict[_Word, int] = {(): IDLE}
+    table: dict[int, list[int]] = {CONFIRMED: [CONFIRMED, CONFIRMED]}
+    open_words: list[_Word] = [()]
+    for word in open_words:
         following = []
         for symbol in (0, 1):
-            reached = int(rule[state, symbol])
-            run = 0 if symbol or reached in (IDLE, CONFIRMED) else misses + 1
-            place = (reached, run) if run < drop_misses else (IDLE, 0)
-            if place not in numbers:
-                numbers[place] = len(numbers)
-                pending.append(place)
-            following.append(numbers[place])
-        rows.append(following)
-    return np.array(rows, dtype=np.intp)
+            longer = (*word, symbol)
+            if symbol and sum(longer[-window:]) >= hits:
+                following.append(CONFIRMED)
+                continue
+            kept = _still_useful(longer, hits, window)
+            if drop_misses is not None and not any(kept[-drop_misses:]):
+                kept = ()
+            if kept not in numbers:
+                numbers[kept] = len(numbers) + 1
+                open_words.append(kept)
+            following.append(numbers[kept])
+        table[numbers[word]] = following
+        if len(open_words) >= _MOST_STATES:
+            raise ValueError(f"the automaton of {hits}/{window} has too many states")
+    return np.array([table[state] for state in range(len(table))], dtype=np.intp)
 
 
 def step(chain: StateArray, state: FloatArray, found: npt.ArrayLike) -> FloatArray:
@@ -77,3 +79,11 @@ def step(chain: StateArray, state: FloatArray, found: npt.ArrayLike) -> FloatArr
     np.add.at(following, chain[:, 0], state * (1.0 - np.asarray(found)))
     np.add.at(following, chain[:, 1], state * np.asarray(found))
     return following
+
+
+def _still_useful(word: _Word, hits: int, window: int) -> _Word:
+    for begin, symbol in enumerate(word):
+        scans_left = window - (len(word) - begin)
+        if symbol and scans_left >= 0 and sum(word[begin:]) + scans_left >= hits:
+            return word[begin:]
+    return ()

@@ -9,8 +9,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from secondary_proc.calculators.rule_chain import FloatArray, rule_chain, step
-from secondary_proc.initiation.l_of_m import CONFIRMED, IDLE
+from secondary_proc.calculators.rule_chain import CONFIRMED, IDLE, FloatArray, rule_chain, step
 
 
 def track_detection(

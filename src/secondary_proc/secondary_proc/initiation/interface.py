@@ -9,8 +9,9 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-ByteArray = npt.NDArray[np.uint8]
+IntArray = npt.NDArray[np.integer]
 BoolArray = npt.NDArray[np.bool_]
+FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,11 +27,11 @@ class Evidence:
         threshold: of the score for the wanted rate of false tracks.
     """
 
-    rule: npt.NDArray[np.integer]
+    rule: IntArray
     found: BoolArray
-    hits: npt.NDArray[np.integer]
-    misses: npt.NDArray[np.integer]
-    score: npt.NDArray[np.float64]
+    hits: IntArray
+    misses: IntArray
+    score: FloatArray
     threshold: float
 
 
@@ -38,9 +39,25 @@ class Evidence:
 class Verdict:
     """What becomes of the tracks: new memory of the rule, confirmed, dropped; shapes (n,)."""
 
-    rule: npt.NDArray[np.integer]
+    rule: IntArray
     confirmed: BoolArray
     dropped: BoolArray
+
+
+class HitGain(Protocol):
+    """Gain of the score by any plot in a gate."""
+
+    def __call__(self, determinant: FloatArray, density: FloatArray) -> FloatArray:
+        """Calculate the gain.
+
+        Args:
+            determinant: of the covariance of the predicted difference, m^4, shape (n,).
+            density: false plots per square metre, shape (n,).
+
+        Returns:
+            Gain, shape (n,).
+        """
+        ...
 
 
 class Initiation(Protocol):
@@ -49,7 +66,12 @@ class Initiation(Protocol):
     longest_gap: int
     """Turns of the antenna that may lie between the first two plots."""
 
-    def opened(self, gap: npt.NDArray[np.integer]) -> ByteArray:
+    @property
+    def hit_gain(self) -> HitGain | None:
+        """What any plot in the gate adds to the score; None where it counts at what place in the gate the plot lies."""
+        ...
+
+    def opened(self, gap: IntArray) -> IntArray:
         """Memory of tracks that have just been opened by two plots.
 
         Args:

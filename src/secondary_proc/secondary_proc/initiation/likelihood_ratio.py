@@ -1,33 +1,42 @@
 # SPDX-License-Identifier: Apache-2.0
 """Confirmation by the running likelihood ratio, set by the rate of false tracks that the user accepts.
 
-Source: Wald 1945, upper bound of the sequential test; Kuzmin 1967, (4.14). Weak candidates end by misses instead of
-the lower bound, so that a target's track is not lost to one unlucky plot.
+Source: Wald 1945, upper bound of the sequential test; Kuzmin 1967, (4.14). Weak candidates end by misses, unless the
+lower bound is asked for, so that a target's track is not lost to one unlucky plot.
 """
 
 from __future__ import annotations
 
-import numpy as np
-import numpy.typing as npt
+from math import inf
+from typing import TYPE_CHECKING
 
-from secondary_proc.initiation.interface import ByteArray, Evidence, Verdict
+import numpy as np
+
+from secondary_proc.initiation.drop import lowest_score
+from secondary_proc.initiation.interface import Evidence, HitGain, IntArray, Verdict
+
+if TYPE_CHECKING:
+    from secondary_proc.parameters import TrackerParameters
 
 
 class LikelihoodRatio:
     """Sequential test on the score, for tracks of enough plots."""
 
-    def __init__(self, hits: int, misses: int) -> None:
+    hit_gain: HitGain | None = None
+
+    def __init__(self, parameters: TrackerParameters) -> None:
         """Set the limits.
 
         Args:
-            hits: plots that a track needs at least.
-            misses: scans in a row without a plot that end it.
+            parameters: `confirm_hits` are the plots that a track needs at least, `drop_rule` what ends it.
         """
-        self._hits = hits
-        self._misses = misses
-        self.longest_gap = misses
+        self._hits = parameters.confirm_hits
+        by_score = parameters.drop_rule == "score"
+        self._floor = lowest_score(parameters.missed_targets) if by_score else -inf
+        self._misses = inf if by_score else parameters.tentative_misses
+        self.longest_gap = parameters.tentative_misses
 
-    def opened(self, gap: npt.NDArray[np.integer]) -> ByteArray:
+    def opened(self, gap: IntArray) -> IntArray:
         """Memory of tracks that have just been opened by two plots.
 
         Args:
@@ -36,7 +45,7 @@ class LikelihoodRatio:
         Returns:
             Zeros, shape (n,): the score is memory enough.
         """
-        return np.zeros(len(gap), np.uint8)
+        return np.zeros(len(gap), np.intp)
 
     def judge(self, evidence: Evidence) -> Verdict:
         """Take one more scan into account.
@@ -48,4 +57,5 @@ class LikelihoodRatio:
             The decision about each.
         """
         sure = (evidence.score >= evidence.threshold) & (evidence.hits >= self._hits)
-        return Verdict(evidence.rule, evidence.found & sure, evidence.misses >= self._misses)
+        dropped = (evidence.misses >= self._misses) | (evidence.score <= self._floor)
+        return Verdict(evidence.rule, evidence.found & sure, dropped)
