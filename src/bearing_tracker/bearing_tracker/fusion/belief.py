@@ -20,7 +20,7 @@ class Belief:
     Arrays lie in memory with the targets' axis innermost, which is what makes one call for a thousand targets quick.
 
     Attributes:
-        mean: of the state, angles in (-pi, pi], shape (n, M, nx).
+        mean: of the state, angles in [-pi, pi), shape (n, M, nx).
         covariance: of the state, shape (n, M, nx, nx).
         log_probability: natural logarithm of the hypothesis' probability, shape (n, M); sums to one in exp.
     """

@@ -158,7 +158,7 @@ class Estimate:
     """One answer per target.
 
     Attributes:
-        mean: of the state, angles in (-pi, pi], shape (n, nx).
+        mean: of the state, angles in [-pi, pi), shape (n, nx).
         covariance: of its error, the spread of the hypotheses included, (25), shape (n, nx, nx).
         active: probability of each state of the active channel, shape (n, M1).
         passive: probability of each state of the passive channel, shape (n, M2).

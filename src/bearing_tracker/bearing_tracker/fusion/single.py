@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One channel without the other."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from bearing_tracker.fusion.belief import Belief
+from bearing_tracker.fusion.dcmp import DcmpFilter
+from bearing_tracker.fusion.interface import ChannelFilter, ChannelPair, Motion, Reading
+
+
+class SingleChannelFilter(DcmpFilter):
+    """Any filter, to which one channel never reports; of that channel it knows what its chain says.
+
+    Attributes:
+        channels: that it was made for.
+    """
+
+    def __init__(
+        self,
+        channels: ChannelPair,
+        heard: Literal["active", "passive"],
+        inner: ChannelFilter | None = None,
+    ) -> None:
+        """Make the filter.
+
+        Args:
+            channels: through which targets are seen.
+            heard: the channel that reports.
+            inner: that does the work; None for the filter of the paper.
+        """
+        super().__init__(channels)
+        self._heard = heard
+        self._inner = inner if inner is not None else DcmpFilter(channels)
+
+    def step(
+        self,
+        belief: Belief,
+        motion: Motion,
+        active: Reading | None = None,
+        passive: Reading | None = None,
+    ) -> Belief:
+        """Move on and take one channel's readings in; see ChannelFilter.step.
+
+        Args:
+            belief: at the previous time.
+            motion: from then to now.
+            active: what the active channel reported.
+            passive: what the passive channel reported.
+
+        Returns:
+            The belief now.
+        """
+        if self._heard == "active":
+            return self._inner.step(belief, motion, active=active)
+        return self._inner.step(belief, motion, passive=passive)
