@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import min_weight_full_bipartite_matching
 
-from secondary_proc.association.interface import GateGraph
+from secondary_proc.association.interface import FloatArray, GateGraph, IndexArray
 
-IndexArray = npt.NDArray[np.intp]
+_FIRST = 1e4
+"""More than any sum of gains that a track served first could cost the others."""
 
 
 def global_nearest_neighbour(graph: GateGraph) -> IndexArray:
@@ -34,12 +34,17 @@ def global_nearest_neighbour(graph: GateGraph) -> IndexArray:
     alone = (on_track[graph.track] == 1) & (on_plot[graph.plot] == 1)
     contested = np.flatnonzero(~alone)
     chosen = contested[
-        _assign(graph.track[contested], graph.plot[contested], graph.gain[contested])
+        _assign(
+            graph.track[contested],
+            graph.plot[contested],
+            graph.gain[contested]
+            + _FIRST * (graph.first if len(graph.first) == 1 else graph.first[contested]),
+        )
     ]
     return np.sort(np.concatenate([np.flatnonzero(alone), chosen]))
 
 
-def _assign(track: IndexArray, plot: IndexArray, gain: npt.NDArray[np.float64]) -> IndexArray:
+def _assign(track: IndexArray, plot: IndexArray, gain: FloatArray) -> IndexArray:
     tracks, row = np.unique(track, return_inverse=True)
     plots, column = np.unique(plot, return_inverse=True)
     count = len(tracks)

@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+IndexArray = npt.NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,18 +20,22 @@ class GateGraph:
     Attributes:
         track: number of the track, shape (n,).
         plot: number of the plot, shape (n,).
-        gain: by how much the edge raises the likelihood over leaving both alone, positive, shape (n,).
+        gain: by how much the edge raises the logarithm of the likelihood over leaving both alone, positive, shape (n,).
+        distance_squared: of the plot from the prediction, normalised by the covariance of their difference, shape (n,).
+        first: whether the track is served before those that are not, shape (n,).
     """
 
-    track: npt.NDArray[np.intp]
-    plot: npt.NDArray[np.intp]
-    gain: npt.NDArray[np.float64]
+    track: IndexArray
+    plot: IndexArray
+    gain: FloatArray
+    distance_squared: FloatArray = field(default_factory=lambda: np.zeros(0))
+    first: npt.NDArray[np.bool_] = field(default_factory=lambda: np.zeros(1, bool))
 
 
 class Association(Protocol):
     """Chooses among the edges of a gate graph."""
 
-    def __call__(self, graph: GateGraph) -> npt.NDArray[np.intp]:
+    def __call__(self, graph: GateGraph) -> IndexArray:
         """Choose edges so that no track and no plot is used twice.
 
         Args:
