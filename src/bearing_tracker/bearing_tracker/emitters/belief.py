@@ -105,14 +105,20 @@ class Geometry(Rows):
         observer: mean position, metres east and north, shape (n, K, 2).
         weight: sum of 1 / std^2 of the bearings, 1/rad^2, shape (n, K); zero where there is no bearing yet.
         places: in use, shape (n,).
-        now: seconds since the first bearing, shape (n,).
+        bearings: taken, shape (n,).
+        heard: time of the last bearing, seconds since the first, shape (n,).
+        now: time of the belief, seconds since the first bearing, shape (n,).
+        first_observer: where the first bearing was taken, metres, shape (n, 2).
     """
 
     time: FloatArray
     observer: FloatArray
     weight: FloatArray
     places: npt.NDArray[np.intp]
+    bearings: npt.NDArray[np.intp]
+    heard: FloatArray
     now: FloatArray
+    first_observer: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,9 +135,8 @@ class Belief(Rows):
         observer: where the observer is now, metres east and north, shape (n, 2).
         observer_velocity: its mean velocity over the last step, m/s, shape (n, 2).
         geometry: where the bearings came from.
-        start: mean of (x, y, vx, vy) at the first bearing, shape (n, 4).
-        start_covariance: of it, shape (n, 4, 4).
         prior: as it was given.
+        range_spread: standard deviation of the prior range, metres, shape (n,).
     """
 
     mean: FloatArray
@@ -140,9 +145,8 @@ class Belief(Rows):
     observer: FloatArray
     observer_velocity: FloatArray
     geometry: Geometry
-    start: FloatArray
-    start_covariance: FloatArray
     prior: Prior
+    range_spread: FloatArray
 
 
 def _take(value: npt.NDArray | Rows, chosen: npt.NDArray) -> npt.NDArray | Rows:

@@ -140,6 +140,8 @@ class FilterSettings:
         range_bins: of the range-parameterised filter.
         correlated: part of the bearing error that lasts.
         known_range_error: largest relative standard error of range, by the bearings alone, that counts as known.
+        speed_doubt: how many times the prior's deviation of velocity is taken when it is asked whether the range is
+            known, since an observer that does not manoeuvre has the range from that assumption only.
     """
 
     acceleration_std: float = 0.01
@@ -149,6 +151,7 @@ class FilterSettings:
     range_bins: int = 7
     correlated: CorrelatedError = field(default_factory=CorrelatedError)
     known_range_error: float = 0.25
+    speed_doubt: float = 3.0
 
 
 class EmitterFilter(Protocol):

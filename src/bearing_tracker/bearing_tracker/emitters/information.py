@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How much bearings tell of an emitter: Fisher information about its range, and the Cramer-Rao bound.
+
+A filter's own covariance is no witness of observability: it is linearised at estimates that jump, and so finds range
+where there is none. Here all bearings are linearised again along one path, the estimated one; on it an observer that
+has not manoeuvred has exactly no information about the range of an emitter of unknown velocity.
+Sources: Nardone and Aidala 1981; Tichavsky, Muravchik and Nehorai 1998 (recursion).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from bearing_tracker.emitters.belief import Geometry, Prior
+from bearing_tracker.emitters.corrections.interface import correct_linear
+from bearing_tracker.emitters.motion import propagate
+from bearing_tracker.emitters.sight import Sight, sight
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def bearing_information(
+    geometry: Geometry, state: FloatArray, acceleration_std: float
+) -> FloatArray:
+    """Fisher information of all bearings about the state now, along the path that leads to it.
+
+    Args:
+        geometry: where the bearings came from.
+        state: (x, y, vx, vy) now, metres and m/s, shape (n, 4).
+        acceleration_std: of the emitter over a mean step, m/s^2. Its path is less certain the longer ago: each place's
+            variance grows by that, as if the errors of places were independent (they are not: the result is an
+            approximation to first order, exact at 0).
+
+    Returns:
+        Shape (n, 4, 4).
+    """
+    age = np.where(geometry.weight > 0.0, geometry.now[:, np.newaxis] - geometry.time, 0.0)
+    then = state[:, np.newaxis, :2] - age[..., np.newaxis] * state[:, np.newaxis, 2:]
+    seen = sight(then - geometry.observer)
+    gradient = np.concatenate([seen.gradient, -age[..., np.newaxis] * seen.gradient], axis=-1)
+    density = _acceleration_density(geometry, acceleration_std)
+    drift = density[:, np.newaxis] * age**3 / 3.0 / seen.range**2
+    weight = geometry.weight / (1.0 + geometry.weight * drift)
+    return np.swapaxes(gradient * weight[..., np.newaxis], -1, -2) @ gradient
+
+
+def range_information(
+    bearings: FloatArray, velocity_covariance: FloatArray, line_of_sight: Sight
+) -> FloatArray:
+    """Information about the logarithm of range when azimuth and velocity are unknown too.
+
+    Args:
+        bearings: information of the bearings, shape (n, 4, 4).
+        velocity_covariance: what is known of the velocity beside them, shape (n, 2, 2).
+        line_of_sight: to the emitter now, n of them.
+
+    Returns:
+        Its inverse square root is the smallest relative error of range, shape (n,).
+    """
+    basis = np.zeros_like(bearings)
+    basis[:, :2, 0], basis[:, :2, 1] = line_of_sight.along, line_of_sight.across
+    # In units of the distance, else metres and metres per second make the matrix ill-conditioned.
+    basis *= line_of_sight.range[:, np.newaxis, np.newaxis]
+    basis[:, 2, 2] = basis[:, 3, 3] = 1.0
+    total = bearings.copy()
+    total[:, 2:, 2:] += np.linalg.inv(velocity_covariance)
+    turned = np.swapaxes(basis, -1, -2) @ total @ basis
+    others = np.linalg.solve(turned[:, 1:, 1:], turned[:, 1:, :1])
+    known = turned[:, 0, 0] - (turned[:, :1, 1:] @ others)[:, 0, 0]
+    return np.maximum(known, 0.0)
+
+
+def bound(
+    bearings: FloatArray,
+    geometry: Geometry,
+    state: FloatArray,
+    prior: Prior,
+    range_spread: FloatArray,
+    acceleration_std: float,
+) -> FloatArray:
+    """Cramer-Rao bound of the state now, from the bearings and the prior.
+
+    Args:
+        bearings: information of the bearings, shape (n, 4, 4).
+        geometry: where they came from.
+        state: (x, y, vx, vy) now, shape (n, 4).
+        prior: of n emitters.
+        range_spread: standard deviation of its range, metres, shape (n,).
+        acceleration_std: of the emitter over a mean step, m/s^2.
+
+    Returns:
+        Covariances that no unbiased estimate can undercut, shape (n, 4, 4).
+    """
+    age = geometry.now
+    density = _acceleration_density(geometry, acceleration_std)
+    start = state[:, :2] - age[:, np.newaxis] * state[:, 2:]
+    along = sight(start - geometry.first_observer).along
+    gradient = np.concatenate([along, -age[:, np.newaxis] * along], axis=-1)
+    variance = range_spread**2 + density * age**3 / 3.0
+    total = bearings + (
+        gradient[:, :, np.newaxis] * gradient[:, np.newaxis] / variance[:, np.newaxis, np.newaxis]
+    )
+    velocity = prior.velocity_covariance + (density * age)[:, np.newaxis, np.newaxis] * np.eye(2)
+    total[:, 2:, 2:] += np.linalg.inv(velocity)
+    return np.linalg.inv(total)
+
+
+def bound_along(
+    path: FloatArray,
+    observer: FloatArray,
+    seconds: FloatArray,
+    std: FloatArray,
+    covariance: FloatArray,
+    acceleration_std: float = 0.0,
+) -> FloatArray:
+    """Cramer-Rao bound along a path that is known, by recursion.
+
+    J' = (M + b J^-1 b')^-1 + h' h / sigma^2, kept as the inverse of J.
+
+    Args:
+        path: true states of one emitter, (x, y, vx, vy), shape (T, 4).
+        observer: metres east and north, shape (T, 2).
+        seconds: from each bearing to the next, shape (T - 1,).
+        std: of the bearings, radians, shape (T,).
+        covariance: of the prior with the first bearing in it, shape (4, 4).
+        acceleration_std: sigma_M, m/s^2.
+
+    Returns:
+        Bound after each bearing, shape (T, 4, 4).
+    """
+    bounds = [covariance]
+    for state, place, step, error in zip(path[1:], observer[1:], seconds, std[1:], strict=True):
+        _, predicted = propagate(state, bounds[-1], np.asarray(step), np.asarray(acceleration_std))
+        gradient = np.concatenate([sight(state[:2] - place).gradient, np.zeros(2)])
+        corrected = correct_linear(state, predicted, gradient, np.zeros(()), np.asarray(error**2))
+        bounds.append(corrected.covariance)
+    return np.stack(bounds)
+
+
+def _acceleration_density(geometry: Geometry, acceleration_std: float) -> FloatArray:
+    """Of the white acceleration that drifts as far as constant ones over mean steps do, m^2/s^3, shape (n,)."""
+    step = geometry.heard / np.maximum(geometry.bearings - 1, 1)
+    return acceleration_std**2 * step
