@@ -33,11 +33,11 @@ class Belief:
         """Number n of targets."""
         return len(self.mean)
 
-    def take(self, rows: npt.NDArray[Any]) -> Belief:
+    def take(self, rows: npt.NDArray[Any] | slice) -> Belief:
         """Pick targets.
 
         Args:
-            rows: numbers of targets or a mask of shape (n,).
+            rows: numbers of targets, a mask of shape (n,) or a slice.
 
         Returns:
             The belief in them alone.
@@ -72,7 +72,7 @@ def join(parts: Sequence[Belief]) -> Belief:
         The belief in all of them.
     """
     return Belief(
-        np.concatenate([part.mean for part in parts]),
-        np.concatenate([part.covariance for part in parts]),
-        np.concatenate([part.log_probability for part in parts]),
+        np.concatenate([part.mean.T for part in parts], axis=-1).T,
+        np.concatenate([part.covariance.T for part in parts], axis=-1).T,
+        np.concatenate([part.log_probability.T for part in parts], axis=-1).T,
     )

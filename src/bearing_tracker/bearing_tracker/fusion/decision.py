@@ -9,12 +9,12 @@ import numpy.typing as npt
 from bearing_tracker.fusion.belief import Belief
 from bearing_tracker.fusion.hypotheses import spread
 from bearing_tracker.fusion.interface import ChannelPair, Estimate, Loss, Output
-from bearing_tracker.fusion.tangent import directions, wrapped
+from bearing_tracker.fusion.tangent import on_tangent, wrapped
 
-FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.intp]
 
 
-def decide(belief: Belief, loss: Loss) -> npt.NDArray[np.intp]:
+def decide(belief: Belief, loss: Loss) -> IntArray:
     """Pick the hypothesis of least risk, (24).
 
     (24) is printed with a plus. Deciding for hypothesis h costs alpha (1 - P_h) + beta P_h tr R_h on average, which is
@@ -34,10 +34,10 @@ def decide(belief: Belief, loss: Loss) -> npt.NDArray[np.intp]:
     if loss.squared_error == 0.0 and loss.wrong > 0.0:
         return belief.log_probability.argmax(axis=1)
     weight = loss.wrong - loss.squared_error * np.einsum("nhii->nh", belief.covariance)
-    if len(belief) and weight.min() <= 0.0:
+    if not (weight > 0.0).all():
         raise ValueError(
-            "a wrong hypothesis must cost more than the expected error under the right one: "
-            f"{loss.wrong} is not above {loss.wrong - weight.min():.3g}"
+            "deciding for a wrong hypothesis must cost more than the error expected under the right one: "
+            f"{loss.wrong} against {loss.wrong - weight.min():.3g}"
         )
     return (belief.log_probability + np.log(weight)).argmax(axis=1)
 
@@ -60,25 +60,23 @@ def estimate(channels: ChannelPair, belief: Belief, output: Output, loss: Loss) 
     if output not in ("mmse", "map"):
         raise ValueError(f"the output is mmse or map, not {output!r}")
     chosen = decide(belief, loss)
-    probability = np.exp(belief.log_probability)
-    weights = probability[:, :, None]
-    reference = directions(belief, channels.angles)
-    apart = wrapped(belief.mean - reference[:, None], channels.angles)
-    centres: dict[Output, FloatArray] = {
-        "mmse": (weights * apart).sum(axis=1),
-        "map": apart[np.arange(len(belief)), chosen],
-    }
-    centre = centres[output]
-    covariance = spread(weights, apart[:, :, None], belief.covariance[:, :, None], centre[:, None])[
-        :, 0
-    ]
-    pairs = probability.reshape(-1, channels.active.states, channels.passive.states)
+    state = on_tangent(channels, belief)
+    probability = np.exp(state.log_probability)
+    picked = state.mean[:, chosen, np.arange(len(belief))]
+    centre = picked if output == "map" else (probability * state.mean).sum(axis=1)
+    covariance = spread(
+        probability[:, None],
+        state.mean[:, :, None],
+        state.covariance[:, :, :, None],
+        centre[:, None],
+    )
+    pairs = probability.reshape(channels.active.states, channels.passive.states, -1)
     active, passive = np.divmod(chosen, channels.passive.states)
     return Estimate(
-        mean=wrapped(reference + centre, channels.angles),
-        covariance=covariance,
-        active=pairs.sum(axis=2),
-        passive=pairs.sum(axis=1),
+        mean=wrapped(state.reference + centre, channels.angles).T,
+        covariance=covariance[:, :, 0].T,
+        active=pairs.sum(axis=1).T,
+        passive=pairs.sum(axis=0).T,
         active_state=active,
         passive_state=passive,
     )

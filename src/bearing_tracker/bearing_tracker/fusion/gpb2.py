@@ -11,10 +11,11 @@ import numpy as np
 
 from bearing_tracker.fusion.belief import Belief
 from bearing_tracker.fusion.dcmp import DcmpFilter
-from bearing_tracker.fusion.hypotheses import log_chain, log_sum, moments
+from bearing_tracker.fusion.hypotheses import Hypotheses, log_chain, log_sum, moments
 from bearing_tracker.fusion.interface import ChannelPair, Motion, Reading
-from bearing_tracker.fusion.passage import moved, off_tangent, on_tangent, seen_in
-from bearing_tracker.fusion.update import Hypotheses, take_in
+from bearing_tracker.fusion.passage import move
+from bearing_tracker.fusion.tangent import off_tangent, on_tangent
+from bearing_tracker.fusion.update import blocks, take_in
 
 
 class Gpb2Filter(DcmpFilter):
@@ -32,53 +33,34 @@ class Gpb2Filter(DcmpFilter):
         """
         super().__init__(channels)
         size = channels.hypotheses
-        present = np.tile(np.arange(size), size)
-        self._branches = (
-            seen_in(channels.active, present // channels.passive.states),
-            seen_in(channels.passive, present % channels.passive.states),
-        )
+        self._previous = np.repeat(np.arange(size), size)
+        self._branches = blocks(channels, np.tile(np.arange(size), size))
 
-    def step(
-        self,
-        belief: Belief,
-        motion: Motion,
-        active: Reading | None = None,
-        passive: Reading | None = None,
+    def _step(
+        self, belief: Belief, motion: Motion, active: Reading | None, passive: Reading | None
     ) -> Belief:
-        """Move on and take readings in; see ChannelFilter.step.
-
-        Args:
-            belief: at the previous time.
-            motion: from then to now.
-            active: what the active channel reported.
-            passive: what the passive channel reported.
-
-        Returns:
-            The belief now.
-        """
-        before = on_tangent(self.channels, belief, motion)
-        targets, size, components = before.mean.shape
-        paths = before.log_probability[:, :, None] + log_chain(self.channels, motion)
-        previous = np.repeat(np.arange(size), size)
-        state = moved(
+        before = on_tangent(self.channels, belief, motion.axis)
+        components, size, targets = before.mean.shape
+        paths = before.log_probability[:, None] + log_chain(self.channels, motion)
+        state = move(
             Hypotheses(
                 before.reference,
-                np.asfortranarray(before.mean[:, previous]),
-                np.asfortranarray(before.covariance[:, previous]),
-                np.asfortranarray(paths.reshape(targets, size * size)),
+                before.mean[:, self._previous],
+                before.covariance[:, :, self._previous],
+                paths.reshape(size * size, targets),
             ),
             motion,
             self.channels,
         )
         for block, reading in zip(self._branches, (active, passive), strict=True):
             state = take_in(state, block, reading)
-        paths = state.log_probability.reshape(targets, size, size)
-        total = log_sum(paths, axis=1)
+        paths = state.log_probability.reshape(size, size, targets)
+        total = log_sum(paths)
         unreachable = ~np.isfinite(total)
-        paths = np.where(unreachable[:, None], -np.log(size), paths)
+        paths = np.where(unreachable, -np.log(size), paths)
         mean, covariance = moments(
-            np.exp(paths - np.where(unreachable, 0.0, total)[:, None]),
-            state.mean.reshape(targets, size, size, components),
-            state.covariance.reshape(targets, size, size, components, components),
+            np.exp(paths - np.where(unreachable, 0.0, total)),
+            state.mean.reshape(components, size, size, targets),
+            state.covariance.reshape(components, components, size, size, targets),
         )
         return off_tangent(self.channels, Hypotheses(state.reference, mean, covariance, total))

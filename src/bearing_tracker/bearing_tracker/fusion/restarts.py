@@ -8,26 +8,27 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
-from bearing_tracker.fusion.hypotheses import moments
-from bearing_tracker.fusion.update import Hypotheses
+from bearing_tracker.fusion.hypotheses import Hypotheses, moments
 
 FloatArray = npt.NDArray[np.float64]
 
 Restart = Callable[[Hypotheses, FloatArray], tuple[FloatArray, FloatArray]]
-"""Of the hypotheses and the probabilities c of their origins, (n, previous, present): mean and covariance to start."""
+"""Of the hypotheses and the probabilities c of their origins, (previous, present, n): mean and covariance to start."""
 
 
 def mixed(state: Hypotheses, origin: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Each hypothesis from the mixture of those it may come from, (12) and (13) of Detkov 2022.
 
+    (5) is printed without 1 / P~, so that the density would not integrate to one; (12) and (13) contain it, in c.
+
     Args:
         state: before the step.
-        origin: c, shape (n, M, M).
+        origin: c, shape (M, M, n).
 
     Returns:
-        Mean, shape (n, M, nx), and covariance, shape (n, M, nx, nx).
+        Mean, shape (nx, M, n), and covariance, shape (nx, nx, M, n).
     """
-    return moments(origin, state.mean[:, :, None], state.covariance[:, :, None])
+    return moments(origin, state.mean[:, :, None], state.covariance[:, :, :, None])
 
 
 def merged(state: Hypotheses, origin: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -40,11 +41,10 @@ def merged(state: Hypotheses, origin: FloatArray) -> tuple[FloatArray, FloatArra
         origin: not used; who comes from where is forgotten.
 
     Returns:
-        Mean, shape (n, M, nx), and covariance, shape (n, M, nx, nx).
+        Mean, shape (nx, 1, n), and covariance, shape (nx, nx, 1, n), the same for all hypotheses.
     """
-    weights = np.exp(state.log_probability)[:, :, None]
-    mean, covariance = moments(weights, state.mean[:, :, None], state.covariance[:, :, None])
-    return _for_all(mean, state), _for_all(covariance, state)
+    weights = np.exp(state.log_probability)[:, None]
+    return moments(weights, state.mean[:, :, None], state.covariance[:, :, :, None])
 
 
 def separate(state: Hypotheses, origin: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -55,7 +55,7 @@ def separate(state: Hypotheses, origin: FloatArray) -> tuple[FloatArray, FloatAr
         origin: not used.
 
     Returns:
-        Mean, shape (n, M, nx), and covariance, shape (n, M, nx, nx).
+        Mean, shape (nx, M, n), and covariance, shape (nx, nx, M, n).
     """
     return state.mean, state.covariance
 
@@ -68,13 +68,7 @@ def reassigned(state: Hypotheses, origin: FloatArray) -> tuple[FloatArray, Float
         origin: not used.
 
     Returns:
-        Mean, shape (n, M, nx), and covariance, shape (n, M, nx, nx).
+        Mean, shape (nx, 1, n), and covariance, shape (nx, nx, 1, n), the same for all hypotheses.
     """
-    rows, best = np.arange(len(state.mean)), state.log_probability.argmax(axis=1)
-    mean, covariance = state.mean[rows, best][:, None], state.covariance[rows, best][:, None]
-    return _for_all(mean, state), _for_all(covariance, state)
-
-
-def _for_all(one: FloatArray, state: Hypotheses) -> FloatArray:
-    hypotheses = state.mean.shape[1]
-    return np.broadcast_to(one, (one.shape[0], hypotheses, *one.shape[2:]))
+    best, targets = state.log_probability.argmax(axis=0), np.arange(state.mean.shape[-1])
+    return state.mean[:, best, targets][:, None], state.covariance[:, :, best, targets][:, :, None]

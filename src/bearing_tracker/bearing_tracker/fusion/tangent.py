@@ -11,6 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from bearing_tracker.fusion.belief import Belief
+from bearing_tracker.fusion.hypotheses import Hypotheses, log_sum
+from bearing_tracker.fusion.interface import ChannelPair
 from radar_common.frames import wrap_pi
 
 FloatArray = npt.NDArray[np.float64]
@@ -21,7 +23,7 @@ def wrapped(values: FloatArray, angles: BoolArray) -> FloatArray:
     """Bring angles to [-pi, pi) and leave everything else.
 
     Args:
-        values: shape (..., k).
+        values: components first, shape (k, ...).
         angles: which components are angles, shape (k,).
 
     Returns:
@@ -31,31 +33,47 @@ def wrapped(values: FloatArray, angles: BoolArray) -> FloatArray:
         return values
     if angles.all():
         return wrap_pi(values)
-    result = values.copy(order="K")
-    result[..., angles] = wrap_pi(values[..., angles])
+    result = values.copy()
+    for component in np.flatnonzero(angles):
+        result[component] = wrap_pi(values[component])
     return result
 
 
-def best(belief: Belief) -> npt.NDArray[np.intp]:
-    """Find the most probable hypothesis.
+def on_tangent(channels: ChannelPair, belief: Belief, axis: FloatArray | None = None) -> Hypotheses:
+    """Express a belief by deviations from a direction.
 
     Args:
+        channels: that tell which components are angles.
         belief: in n targets.
+        axis: that direction, shape (n, nx); None for that of the most probable hypothesis.
 
     Returns:
-        Its number, shape (n,).
+        The same states.
     """
-    return belief.log_probability.argmax(axis=1)
+    mean = np.ascontiguousarray(belief.mean.T)
+    log_probability = np.ascontiguousarray(belief.log_probability.T)
+    if axis is None:
+        best = log_probability.argmax(axis=0)
+        reference = mean[:, best, np.arange(len(belief))] * channels.angles[:, None]
+    else:
+        reference = np.ascontiguousarray(axis.T)
+    apart = wrapped(mean - reference[:, None], channels.angles)
+    covariance = np.ascontiguousarray(belief.covariance.T)
+    return Hypotheses(reference, apart, covariance, log_probability)
 
 
-def directions(belief: Belief, angles: BoolArray) -> FloatArray:
-    """Directions among the hypotheses: those of the most probable one.
+def off_tangent(channels: ChannelPair, state: Hypotheses) -> Belief:
+    """Come back to directions, and to probabilities that sum to one.
 
     Args:
-        belief: in n targets.
-        angles: which components of the state are angles, shape (nx,).
+        channels: that tell which components are angles.
+        state: on the tangent.
 
     Returns:
-        Radians where the state is an angle, else zero, shape (n, nx).
+        The belief.
     """
-    return np.where(angles, belief.mean[np.arange(len(belief)), best(belief)], 0.0)
+    return Belief(
+        wrapped(state.mean + state.reference[:, None], channels.angles).T,
+        state.covariance.T,
+        (state.log_probability - log_sum(state.log_probability)).T,
+    )

@@ -8,10 +8,11 @@ import numpy.typing as npt
 
 from bearing_tracker.fusion.belief import Belief
 from bearing_tracker.fusion.dcmp import DcmpFilter
+from bearing_tracker.fusion.hypotheses import Hypotheses
 from bearing_tracker.fusion.interface import ChannelPair, Motion, Reading
-from bearing_tracker.fusion.passage import moved, off_tangent, on_tangent, seen_in
-from bearing_tracker.fusion.tangent import best
-from bearing_tracker.fusion.update import Hypotheses, take_in
+from bearing_tracker.fusion.passage import move
+from bearing_tracker.fusion.tangent import off_tangent, on_tangent
+from bearing_tracker.fusion.update import seen_in, take_in
 
 IntArray = npt.NDArray[np.intp]
 
@@ -34,55 +35,30 @@ class ToldFilter(DcmpFilter):
         super().__init__(channels)
         self._truth = truth
 
-    def step(
-        self,
-        belief: Belief,
-        motion: Motion,
-        active: Reading | None = None,
-        passive: Reading | None = None,
+    def _step(
+        self, belief: Belief, motion: Motion, active: Reading | None, passive: Reading | None
     ) -> Belief:
-        """Move on and take readings in; see ChannelFilter.step.
-
-        Args:
-            belief: at the previous time.
-            motion: from then to now.
-            active: what the active channel reported.
-            passive: what the passive channel reported.
-
-        Returns:
-            The belief now.
-
-        Raises:
-            ValueError: a reading does not tell the channel's true state to the filter that is told it.
-        """
-        rows, certain = np.arange(len(belief)), best(belief)
-        state = on_tangent(
-            self.channels,
-            Belief(
-                belief.mean[rows, certain][:, None],
-                belief.covariance[rows, certain][:, None],
-                np.zeros((len(belief), 1)),
-            ),
-            motion,
+        rows, certain = np.arange(len(belief)), belief.log_probability.argmax(axis=1)
+        one = Belief(
+            belief.mean[rows, certain][:, None],
+            belief.covariance[rows, certain][:, None],
+            np.zeros((len(belief), 1)),
         )
-        state = moved(state, motion, self.channels)
+        state = move(on_tangent(self.channels, one, motion.axis), motion, self.channels)
         passives = self.channels.passive.states
-        known = (certain // passives, certain % passives)
-        states = []
-        for channel, reading, previous in zip(
-            (self.channels.active, self.channels.passive), (active, passive), known, strict=True
-        ):
-            now = self._state(reading, previous)
-            state = take_in(state, seen_in(channel, now[:, None]), reading)
-            states.append(now)
-        one_hot = np.full(belief.log_probability.shape, -np.inf)
-        one_hot[rows, states[0] * passives + states[1]] = 0.0
+        channels = (self.channels.active, self.channels.passive)
+        before = np.divmod(certain, passives)
+        now = [self._state(*told) for told in zip((active, passive), before, strict=True)]
+        for channel, reading, known in zip(channels, (active, passive), now, strict=True):
+            state = take_in(state, seen_in(channel, known[None]), reading)
         size = self.channels.hypotheses
+        certainty = np.full((size, len(belief)), -np.inf)
+        certainty[now[0] * passives + now[1], rows] = 0.0
         whole = Hypotheses(
             state.reference,
             np.repeat(state.mean, size, axis=1),
-            np.repeat(state.covariance, size, axis=1),
-            one_hot,
+            np.repeat(state.covariance, size, axis=2),
+            certainty,
         )
         return off_tangent(self.channels, whole)
 
