@@ -16,13 +16,17 @@ from radar_sim.interference.other_radar import OtherRadarSection
 from radar_sim.radar import Radar
 from radar_sim.scenario import Scenario, load_scenario
 from radar_sim.simulator import Simulator
-from radar_sim.traffic import TrafficSection
+from radar_sim.traffic import TrafficGroup, TrafficSection
 
 AIRPORT = load_scenario("airport")
 CROWD = Scenario(
     AIRPORT.radar,
     traffic=(
-        TrafficSection(number=2000, range_min=15_000.0, range_max=1e5, duration=600.0, snr_db=20.0),
+        TrafficGroup(
+            TrafficSection(
+                number=2000, range_min=15_000.0, range_max=1e5, duration=600.0, snr_db=20.0
+            )
+        ),
     ),
 )
 # Every cell holds land or sea; over it rain, masts, another radar and a jammer.

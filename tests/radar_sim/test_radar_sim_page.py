@@ -10,9 +10,10 @@ import pytest
 from radar_common.parameters import to_markdown
 from radar_sim.clutter.sections import CLUTTER
 from radar_sim.interference.sections import INTERFERENCE
+from radar_sim.moving import LegSection
 from radar_sim.radar import Radar
 from radar_sim.scenario import parse_scenario, scenario_names
-from radar_sim.targets import LegSection, TargetSection
+from radar_sim.targets import TargetSection
 from radar_sim.traffic import TrafficSection
 
 SECTIONS = [
@@ -36,7 +37,9 @@ def test_the_tables_of_keys_are_current(page, section):
 
 
 def test_the_examples_are_scenarios(page):
-    targets, disturbances = map(parse_scenario, re.findall(r"```yaml\n(.*?)```", page, re.DOTALL))
+    targets, random, disturbances = map(
+        parse_scenario, re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+    )
     assert len(targets.targets) == 2
     assert len(targets.targets[1].path.legs) == 2
     assert len(disturbances.disturbances) == 6

@@ -77,6 +77,35 @@ def test_a_scenario_is_read_from_a_path(tmp_path):
             "targets[0]: legs[0]",
             "speed -10 m/s",
         ),
+        (
+            "targets: [{speed: 0.0, legs: [{centripetal: 5.0}]}]",
+            "targets[0]: legs[0]",
+            "centripetal acceleration at the speed 0",
+        ),
+        (
+            "targets: [{legs: [{jump_speed: -200.0}]}]",
+            "targets[0]: legs[0]",
+            "must not be negative",
+        ),
+        (
+            "targets: [{legs: [{centripetal: 5.0, turn_rate_deg: 1.0}]}]",
+            "targets[0].legs[0]",
+            "exclude each other",
+        ),
+        ("targets: [{motion: {}}]", "targets[0].motion", "one of polynomial"),
+        ("targets: [{motion: {model: game}}]", "targets[0].motion", "one of polynomial"),
+        ("targets: [{motion: 3}]", "targets[0].motion", "keys and values"),
+        (
+            "targets: [{motion: {model: arcs, step: 1.0}}]",
+            "targets[0].motion: unknown parameter step",
+            "",
+        ),
+        (
+            "targets: [{legs: [{}], motion: {model: arcs}}]",
+            "targets[0]",
+            "legs and motion exclude each other",
+        ),
+        ("traffic: [{wander: {std: -1.0}}]", "traffic[0].wander: std", "[0, 100000]"),
         ("traffic: [{speed_min: 300.0}]", "traffic[0]: speed_min 300", "greater than speed_max"),
         ("traffic: [{range_min: 90000.0}]", "traffic[0]: range_min", "greater than range_max"),
         ("traffic: [{steady: 0.6, fast: 0.6}]", "traffic[0]: steady", "above 1"),
@@ -103,3 +132,35 @@ def test_a_file_that_is_no_text_is_refused(tmp_path):
     path.write_bytes(b"\xff\xfe\x00\x81")
     with pytest.raises(ScenarioError, match="readable"):
         load_scenario(path)
+
+
+MOVING = """
+targets:
+  - {x: 1000.0, motion: {model: correlated, acceleration_std: 3.0}}
+  - {x: 2000.0, legs: [{duration: 20.0, centripetal: 9.0, jump_course_deg: 30.0}]}
+  - {x: 3000.0, wander: {std: 50.0}}
+traffic:
+  - {number: 3, motion: {model: arcs}, wander: {}}
+  - {number: 2}
+"""
+
+
+def test_targets_and_groups_move_at_random_as_asked():
+    scenario = parse_scenario(MOVING)
+
+    def draw(seed):
+        targets = scenario.draw(np.random.default_rng(seed))
+        everyone = np.arange(len(targets))
+        return targets.fleet.state(everyone, np.full(len(targets), 60.0))
+
+    one, same, other = draw(1), draw(1), draw(2)
+    assert one.x.tobytes() == same.x.tobytes()
+    assert (one.x != other.x).tolist() == [True, False, *[True] * 6]
+
+
+def test_a_target_moves_as_it_did_whatever_comes_after_it():
+    scenario = parse_scenario(MOVING)
+    more = parse_scenario(MOVING.replace("traffic:", "  - {motion: {model: arcs}}\ntraffic:"))
+    first, second = (s.draw(np.random.default_rng(3)) for s in (scenario, more))
+    index, time = np.arange(3), np.full(3, 100.0)
+    assert first.fleet.state(index, time).x.tobytes() == second.fleet.state(index, time).x.tobytes()

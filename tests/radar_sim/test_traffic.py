@@ -7,9 +7,11 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from radar_sim.motion.correlated import WanderSection
+from radar_sim.motion.speed_course import ArcsMotion
 from radar_sim.radar import Radar
 from radar_sim.targets import Targets
-from radar_sim.traffic import TrafficSection, draw_traffic
+from radar_sim.traffic import TrafficGroup, TrafficSection, draw_traffic
 
 RADAR = Radar(x=3000.0, y=-2000.0)
 GROUP = TrafficSection(
@@ -62,9 +64,11 @@ def test_manoeuvres_have_the_share_and_the_size_asked_for():
 
 
 def test_fluctuations_are_mixed_as_asked():
-    group = GROUP.changed({"number": 1000, "steady": 0.2, "fast": 0.3})
+    shares = {"steady": 0.2, "fast": 0.3, "slow_dominant": 0.15, "fast_dominant": 0.1}
+    group = GROUP.changed({"number": 1000} | shares)
     kinds = Targets(draw_traffic(group, RADAR, np.random.default_rng(0))).fluctuation
-    for kind, share in (("none", 0.2), ("fast", 0.3), ("slow", 0.5)):
+    expected = {"none": 0.2, "fast": 0.3, "slow-dominant": 0.15, "fast-dominant": 0.1, "slow": 0.25}
+    for kind, share in expected.items():
         assert abs(np.mean(kinds == kind) - share) < 4.0 * np.sqrt(share * (1 - share) / 1000)
 
 
@@ -79,3 +83,19 @@ def test_lifetimes_and_appearances_are_spread():
 
 def test_an_empty_group_has_no_targets():
     assert draw_traffic(GROUP.changed({"number": 0}), RADAR, np.random.default_rng(0)) == []
+
+
+def test_a_group_with_a_motion_of_its_own_begins_as_the_others_do():
+    plain, moved = TrafficGroup(GROUP), TrafficGroup(GROUP, ArcsMotion(duration=300.0))
+    one, other = (group.draw(RADAR, np.random.default_rng(4)) for group in (plain, moved))
+    for before, after in zip(one, other, strict=True):
+        assert (before.path.x, before.path.course) == (after.path.x, after.path.course)
+        assert before.path.legs != after.path.legs
+        assert all(leg.acceleration == 0.0 for leg in after.path.legs)
+
+
+def test_a_group_wanders_about_its_manoeuvres():
+    plain = TrafficGroup(GROUP).draw(RADAR, np.random.default_rng(4))
+    wandering = TrafficGroup(GROUP, wander=WanderSection()).draw(RADAR, np.random.default_rng(4))
+    assert [t.path.legs for t in plain] == [t.path.legs for t in wandering]
+    assert all(t.path.wander is not None for t in wandering)

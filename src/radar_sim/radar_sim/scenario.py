@@ -7,20 +7,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 import yaml
 
-from radar_common.parameters import ParameterError, Parameters
+from radar_common.parameters import ParameterError
 from radar_sim.clutter.sections import CLUTTER
 from radar_sim.disturbance import Disturbance, DisturbanceSection
 from radar_sim.interference.sections import INTERFERENCE
 from radar_sim.radar import Radar
-from radar_sim.targets import LegSection, Target, Targets, TargetSection
-from radar_sim.traffic import TrafficSection, draw_traffic
-
-SectionT = TypeVar("SectionT", bound=Parameters)
+from radar_sim.targets import Target, Targets, read_target
+from radar_sim.traffic import TrafficGroup, read_group
+from radar_sim.yaml_sections import read_entries, read_section
 
 _DISTURBANCES: dict[str, dict[str, type[DisturbanceSection]]] = {
     "clutter": CLUTTER,
@@ -46,7 +45,7 @@ class Scenario:
 
     radar: Radar
     targets: tuple[Target, ...] = ()
-    traffic: tuple[TrafficSection, ...] = ()
+    traffic: tuple[TrafficGroup, ...] = ()
     disturbances: tuple[DisturbanceSection, ...] = ()
     title: str = ""
 
@@ -59,9 +58,10 @@ class Scenario:
         Returns:
             Targets in order of their ids.
         """
-        drawn = list(self.targets)
+        streams = rng.spawn(len(self.targets))
+        drawn = [target.drawn(own) for target, own in zip(self.targets, streams, strict=True)]
         for group in self.traffic:
-            drawn += draw_traffic(group, self.radar, rng)
+            drawn += group.draw(self.radar, rng)
         return Targets(drawn)
 
     def disturb(self, seed: np.random.SeedSequence) -> list[Disturbance]:
@@ -141,12 +141,9 @@ def parse_scenario(text: str, *, source: str = "text") -> Scenario:
         unknown = sorted(str(key) for key in content if key not in _KEYS)
         if unknown:
             raise ParameterError(f"unknown key {', '.join(unknown)}")
-        targets = [_target(entry, where) for where, entry in _entries(content, "targets", "")]
-        traffic = [
-            _section(TrafficSection, entry, where)
-            for where, entry in _entries(content, "traffic", "")
-        ]
-        radar = _section(Radar, content.get("radar"), "radar")
+        targets = [read_target(entry, where) for where, entry in read_entries(content, "targets")]
+        traffic = [read_group(entry, where) for where, entry in read_entries(content, "traffic")]
+        radar = read_section(Radar, content.get("radar"), "radar")
         disturbances = [
             section for key in _DISTURBANCES for section in _disturbances(content, key, radar)
         ]
@@ -161,19 +158,6 @@ def parse_scenario(text: str, *, source: str = "text") -> Scenario:
         raise ScenarioError(f"scenario {source}: {error}") from error
 
 
-def _target(entry: Any, where: str) -> Target:
-    legs = []
-    if isinstance(entry, dict):
-        entry = dict(entry)
-        legs = [_section(LegSection, leg, at) for at, leg in _entries(entry, "legs", f"{where}.")]
-        entry.pop("legs", None)
-    section = _section(TargetSection, entry, where)
-    try:
-        return section.target(legs)
-    except ParameterError as error:
-        raise ParameterError(f"{where}: {error}") from error
-
-
 def _disturbances(content: Mapping[str, Any], key: str, radar: Radar) -> list[DisturbanceSection]:
     kinds = content.get(key)
     if kinds is None:
@@ -185,29 +169,11 @@ def _disturbances(content: Mapping[str, Any], key: str, radar: Radar) -> list[Di
         raise ParameterError(f"{key}: unknown key {', '.join(unknown)}")
     sections = []
     for kind, cls in _DISTURBANCES[key].items():
-        for where, entry in _entries(kinds, kind, f"{key}."):
-            section = _section(cls, entry, where)
+        for where, entry in read_entries(kinds, kind, f"{key}."):
+            section = read_section(cls, entry, where)
             try:
                 section.require_fit(radar)
             except ParameterError as error:
                 raise ParameterError(f"{where}: {error}") from error
             sections.append(section)
     return sections
-
-
-def _entries(content: Mapping[str, Any], key: str, prefix: str) -> list[tuple[str, Any]]:
-    entries = content.get(key) or []
-    if not isinstance(entries, list):
-        raise ParameterError(f"{prefix}{key}: must be a list")
-    return [(f"{prefix}{key}[{number}]", entry) for number, entry in enumerate(entries)]
-
-
-def _section(cls: type[SectionT], entry: Any, where: str) -> SectionT:
-    if entry is None:
-        entry = {}
-    if not isinstance(entry, dict):
-        raise ParameterError(f"{where}: must be keys and values")
-    try:
-        return cls().changed({str(key): value for key, value in entry.items()})
-    except ParameterError as error:
-        raise ParameterError(f"{where}: {error}") from error

@@ -3,45 +3,27 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from radar_common.parameters import ParameterError, Parameters, parameter
+from radar_common.parameters import parameter
 from radar_sim.fluctuation import FLUCTUATIONS
-from radar_sim.motion import Fleet, Leg, Path
+from radar_sim.motion import Fleet, Path
+from radar_sim.motion.correlated import WanderSection
+from radar_sim.motion.model import MotionModel
+from radar_sim.motion.sections import draw_paths
+from radar_sim.moving import MovingSection, read_legs, read_motion, read_path
+from radar_sim.yaml_sections import read_keys, read_section
 
 
 @dataclass(frozen=True, kw_only=True)
-class LegSection(Parameters):
-    """One entry of a target's `legs`."""
+class TargetSection(MovingSection):
+    """One entry of a scenario's `targets`."""
 
-    duration: float = parameter(60.0, "time on this leg", unit="s", low=0.1, high=1e6)
-    turn_rate_deg: float = parameter(
-        0.0, "change of course, positive to the right", unit="deg/s", low=-45.0, high=45.0
-    )
-    acceleration: float = parameter(0.0, "change of speed", unit="m/s²", low=-50.0, high=50.0)
-
-    def leg(self) -> Leg:
-        """Convert to the units of the motion model."""
-        return Leg(self.duration, math.radians(self.turn_rate_deg), self.acceleration)
-
-
-@dataclass(frozen=True, kw_only=True)
-class TargetSection(Parameters):
-    """One entry of a scenario's `targets`; after its legs a target moves straight on."""
-
-    x: float = parameter(
-        0.0, "east of the map's origin when it appears", unit="m", low=-1e6, high=1e6
-    )
-    y: float = parameter(10_000.0, "north of the map's origin", unit="m", low=-1e6, high=1e6)
-    speed: float = parameter(100.0, "speed when it appears", unit="m/s", low=0.0, high=3000.0)
-    course_deg: float = parameter(
-        0.0, "course when it appears, clockwise from north", unit="deg", low=-360.0, high=360.0
-    )
     snr_db: float = parameter(
         15.0,
         "mean power signal-to-noise ratio at the radar's reference_range",
@@ -54,42 +36,6 @@ class TargetSection(Parameters):
         "of the echo: none, slow (Swerling 1), fast (2), slow-dominant (3), fast-dominant (4)",
         choices=tuple(FLUCTUATIONS),
     )
-    appears: float = parameter(
-        0.0, "time after the start at which it takes off", unit="s", low=0.0, high=1e6
-    )
-    lifetime: float = parameter(
-        0.0, "time from appearing to disappearing; 0 stays for ever", unit="s", low=0.0, high=1e6
-    )
-
-    def target(self, legs: Sequence[LegSection]) -> Target:
-        """Put the target together with its legs.
-
-        Args:
-            legs: one after the other.
-
-        Returns:
-            The target.
-
-        Raises:
-            ParameterError: its speed would become negative on the way.
-        """
-        speed = self.speed
-        for number, leg in enumerate(legs):
-            speed += leg.acceleration * leg.duration
-            if speed < 0.0:
-                raise ParameterError(
-                    f"legs[{number}] ends with the speed {speed:g} m/s, which must not be negative"
-                )
-        path = Path(
-            x=self.x,
-            y=self.y,
-            speed=self.speed,
-            course=math.radians(self.course_deg),
-            legs=tuple(leg.leg() for leg in legs),
-            appears=self.appears,
-            disappears=self.appears + self.lifetime if self.lifetime else math.inf,
-        )
-        return Target(path, self.snr_db, self.fluctuation)
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,11 +46,49 @@ class Target:
         path: its motion.
         snr_db: mean power ratio of one pulse at the radar's reference range, dB.
         fluctuation: name of the model of its echo.
+        motion: draws the path's motion; None where its legs are all.
+        wander: about the path; None for none.
     """
 
     path: Path
     snr_db: float
     fluctuation: str
+    motion: MotionModel | None = None
+    wander: WanderSection | None = None
+
+    def drawn(self, rng: np.random.Generator) -> Target:
+        """Let it move at random.
+
+        Args:
+            rng: source of randomness of this target alone.
+
+        Returns:
+            The same target with its path drawn.
+        """
+        (path,) = draw_paths([self.path], self.motion, self.wander, rng)
+        return replace(self, path=path)
+
+
+def read_target(entry: Any, where: str) -> Target:
+    """Read one entry of `targets`.
+
+    Args:
+        entry: keys and values.
+        where: it stands.
+
+    Returns:
+        The target, its random motion not yet drawn.
+
+    Raises:
+        ParameterError: a key is unknown or a value impossible.
+    """
+    keys = read_keys(entry, where)
+    motion, wander = read_motion(keys, where)
+    legs = read_legs(keys, where)
+    section = read_section(TargetSection, keys, where)
+    return Target(
+        read_path(section, legs, motion, where), section.snr_db, section.fluctuation, motion, wander
+    )
 
 
 class Targets:

@@ -10,7 +10,8 @@ outwards turns back instead.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,8 +19,13 @@ import numpy.typing as npt
 from radar_common.frames import TWO_PI, wrap_pi
 from radar_common.parameters import ParameterError, Parameters, parameter
 from radar_sim.motion import Leg, Path, displacement
+from radar_sim.motion.correlated import WanderSection
+from radar_sim.motion.model import MotionModel
+from radar_sim.motion.sections import draw_paths
+from radar_sim.moving import read_motion
 from radar_sim.radar import Radar
 from radar_sim.targets import Target
+from radar_sim.yaml_sections import read_keys, read_section
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -72,8 +78,15 @@ class TrafficSection(Parameters):
         3.0, "standard deviation of it over the targets", unit="dB", low=0.0, high=20.0
     )
     steady: float = parameter(0.0, "fraction of targets that do not fluctuate", low=0.0, high=1.0)
-    fast: float = parameter(
-        0.0, "fraction that fluctuates fast; the rest fluctuates slowly", low=0.0, high=1.0
+    fast: float = parameter(0.0, "fraction that fluctuates fast", low=0.0, high=1.0)
+    slow_dominant: float = parameter(
+        0.0, "fraction that fluctuates slowly with a dominant scatterer", low=0.0, high=1.0
+    )
+    fast_dominant: float = parameter(
+        0.0,
+        "fraction that fluctuates fast with one; the rest fluctuates slowly",
+        low=0.0,
+        high=1.0,
     )
     appear_within: float = parameter(
         0.0,
@@ -97,17 +110,85 @@ class TrafficSection(Parameters):
                 raise ParameterError(
                     f"{low} {getattr(self, low):g} is greater than {high} {getattr(self, high):g}"
                 )
-        if self.steady + self.fast > 1.0:
-            raise ParameterError(f"steady and fast add up to {self.steady + self.fast:g}, above 1")
+        total = sum(self.shares.values())
+        # A sum of fractions may round to a little more than one.
+        if total > 1.0 + 1e-9:
+            raise ParameterError(
+                f"steady, fast, slow_dominant and fast_dominant add up to {total:g}, above 1"
+            )
+
+    @property
+    def shares(self) -> dict[str, float]:
+        """Fraction of each kind of fluctuation but the slow one, which has the rest."""
+        return {
+            "none": self.steady,
+            "fast": self.fast,
+            "slow-dominant": self.slow_dominant,
+            "fast-dominant": self.fast_dominant,
+        }
 
 
-def draw_traffic(group: TrafficSection, radar: Radar, rng: np.random.Generator) -> list[Target]:
+@dataclass(frozen=True, slots=True)
+class TrafficGroup:
+    """Many targets alike, not yet drawn.
+
+    Attributes:
+        section: what they have in common.
+        motion: moves them; None for the legs that the section describes.
+        wander: about their paths; None for none.
+    """
+
+    section: TrafficSection
+    motion: MotionModel | None = None
+    wander: WanderSection | None = None
+
+    def draw(self, radar: Radar, rng: np.random.Generator) -> list[Target]:
+        """Draw the targets.
+
+        Args:
+            radar: centre of the group's ring.
+            rng: source of randomness.
+
+        Returns:
+            The targets.
+        """
+        targets = draw_traffic(self.section, radar, rng, legs=self.motion is None)
+        if self.motion is None and self.wander is None:
+            return targets
+        # A stream aside, so that the next group does not depend on how this one moves.
+        (stream,) = rng.spawn(1)
+        paths = draw_paths([target.path for target in targets], self.motion, self.wander, stream)
+        return [replace(target, path=path) for target, path in zip(targets, paths, strict=True)]
+
+
+def read_group(entry: Any, where: str) -> TrafficGroup:
+    """Read one entry of `traffic`.
+
+    Args:
+        entry: keys and values.
+        where: it stands.
+
+    Returns:
+        The group.
+
+    Raises:
+        ParameterError: a key is unknown or a value impossible.
+    """
+    keys = read_keys(entry, where)
+    motion, wander = read_motion(keys, where)
+    return TrafficGroup(read_section(TrafficSection, keys, where), motion, wander)
+
+
+def draw_traffic(
+    group: TrafficSection, radar: Radar, rng: np.random.Generator, *, legs: bool = True
+) -> list[Target]:
     """Draw the targets of a group around the radar.
 
     Args:
         group: what they have in common.
         radar: centre of the group's ring.
         rng: source of randomness.
+        legs: whether they manoeuvre; without legs they fly straight on.
 
     Returns:
         The targets; positions are uniform over range and azimuth.
@@ -121,10 +202,9 @@ def draw_traffic(group: TrafficSection, radar: Radar, rng: np.random.Generator) 
     lifetime = rng.exponential(group.lifetime, size) if group.lifetime else np.full(size, np.inf)
     snr_db = rng.normal(group.snr_db, group.snr_spread_db, size)
     kind = rng.uniform(size=size)
-    kinds = np.where(
-        kind < group.steady, "none", np.where(kind < group.steady + group.fast, "fast", "slow")
-    )
-    legs = _draw_legs(group, position, speed, course, rng)
+    names = np.array([*group.shares, "slow"])
+    kinds = names[np.searchsorted(np.cumsum(list(group.shares.values())), kind, side="right")]
+    flown = _draw_legs(group, position, speed, course, rng) if legs else [[]] * size
     return [
         Target(
             Path(
@@ -132,7 +212,7 @@ def draw_traffic(group: TrafficSection, radar: Radar, rng: np.random.Generator) 
                 y=radar.y + float(position[i].real),
                 speed=float(speed[i]),
                 course=float(course[i]),
-                legs=tuple(legs[i]),
+                legs=tuple(flown[i]),
                 appears=float(appears[i]),
                 disappears=float(appears[i] + lifetime[i]),
             ),
