@@ -33,11 +33,11 @@ class Belief:
         """Number n of targets."""
         return len(self.mean)
 
-    def take(self, rows: npt.NDArray[Any] | slice) -> Belief:
+    def take(self, rows: npt.NDArray[Any]) -> Belief:
         """Pick targets.
 
         Args:
-            rows: numbers of targets, a mask of shape (n,) or a slice.
+            rows: numbers of targets or a mask of shape (n,).
 
         Returns:
             The belief in them alone.

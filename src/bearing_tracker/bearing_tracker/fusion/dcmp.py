@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bearing_tracker.fusion import decision
-from bearing_tracker.fusion.belief import Belief, join
+from bearing_tracker.fusion.belief import Belief
 from bearing_tracker.fusion.hypotheses import Hypotheses, log_chain, predict_probability
 from bearing_tracker.fusion.interface import (
     NO_LOSS_OF_ERROR,
@@ -32,9 +32,6 @@ from bearing_tracker.fusion.tangent import off_tangent, on_tangent
 from bearing_tracker.fusion.update import blocks, take_in
 
 FloatArray = npt.NDArray[np.float64]
-
-BATCH = 1000
-"""Targets that are worked on together: with more, intermediate results no longer fit the processor's cache."""
 
 
 class DcmpFilter:
@@ -99,19 +96,17 @@ class DcmpFilter:
         Raises:
             ValueError: a reading is not finite or its covariance not positive definite.
         """
-        if len(belief) <= BATCH:
-            return self._step(belief, motion, active, passive)
-        return join(
-            [
-                self._step(
-                    belief.take(rows),
-                    motion.take(rows),
-                    None if active is None else active.take(rows),
-                    None if passive is None else passive.take(rows),
-                )
-                for rows in (slice(k, k + BATCH) for k in range(0, len(belief), BATCH))
-            ]
+        state = on_tangent(self.channels, belief, motion.axis)
+        predicted, origin = predict_probability(
+            state.log_probability, log_chain(self.channels, motion)
         )
+        mean, covariance = self._restart(state, origin)
+        state = move(
+            Hypotheses(state.reference, mean, covariance, predicted), motion, self.channels
+        )
+        for block, reading in zip(self._blocks, (active, passive), strict=True):
+            state = take_in(state, block, reading)
+        return off_tangent(self.channels, state)
 
     def estimate(
         self, belief: Belief, output: Output = "mmse", loss: Loss = NO_LOSS_OF_ERROR
@@ -127,18 +122,3 @@ class DcmpFilter:
             State, covariance and the channels' states.
         """
         return decision.estimate(self.channels, belief, output, loss)
-
-    def _step(
-        self, belief: Belief, motion: Motion, active: Reading | None, passive: Reading | None
-    ) -> Belief:
-        state = on_tangent(self.channels, belief, motion.axis)
-        predicted, origin = predict_probability(
-            state.log_probability, log_chain(self.channels, motion)
-        )
-        mean, covariance = self._restart(state, origin)
-        state = move(
-            Hypotheses(state.reference, mean, covariance, predicted), motion, self.channels
-        )
-        for block, reading in zip(self._blocks, (active, passive), strict=True):
-            state = take_in(state, block, reading)
-        return off_tangent(self.channels, state)

@@ -36,9 +36,27 @@ class Gpb2Filter(DcmpFilter):
         self._previous = np.repeat(np.arange(size), size)
         self._branches = blocks(channels, np.tile(np.arange(size), size))
 
-    def _step(
-        self, belief: Belief, motion: Motion, active: Reading | None, passive: Reading | None
+    def step(
+        self,
+        belief: Belief,
+        motion: Motion,
+        active: Reading | None = None,
+        passive: Reading | None = None,
     ) -> Belief:
+        """Move on and take readings in; see ChannelFilter.step.
+
+        Args:
+            belief: at the previous time.
+            motion: from then to now.
+            active: what the active channel reported.
+            passive: what the passive channel reported.
+
+        Returns:
+            The belief now.
+
+        Raises:
+            ValueError: a reading is not finite or its covariance not positive definite.
+        """
         before = on_tangent(self.channels, belief, motion.axis)
         components, size, targets = before.mean.shape
         paths = before.log_probability[:, None] + log_chain(self.channels, motion)

@@ -9,7 +9,7 @@ one. A hypothesis is a pair (j, m) of them, number j * M2 + m, so there are M = 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +19,6 @@ from bearing_tracker.fusion.belief import Belief
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
 IntArray = npt.NDArray[np.intp]
-Rows = npt.NDArray[Any] | slice
 
 Output = Literal["mmse", "map"]
 """How one estimate is made of M hypotheses: their mean, or the one that rule (24) picks."""
@@ -120,23 +119,6 @@ class Motion:
     active_chain: FloatArray | None = None
     passive_chain: FloatArray | None = None
 
-    def take(self, rows: Rows) -> Motion:
-        """Pick targets.
-
-        Args:
-            rows: numbers of targets, a mask of shape (n,) or a slice.
-
-        Returns:
-            Their motion; what is one for all stays as it is.
-        """
-        return Motion(
-            _rows_of(self.transition, rows),
-            _rows_of(self.noise, rows),
-            None if self.axis is None else self.axis[rows],
-            None if self.active_chain is None else _rows_of(self.active_chain, rows),
-            None if self.passive_chain is None else _rows_of(self.passive_chain, rows),
-        )
-
 
 @dataclass(frozen=True, slots=True)
 class Reading:
@@ -156,22 +138,6 @@ class Reading:
     covariance: FloatArray
     reported: BoolArray
     state: IntArray | None = None
-
-    def take(self, rows: Rows) -> Reading:
-        """Pick targets.
-
-        Args:
-            rows: numbers of targets, a mask of shape (n,) or a slice.
-
-        Returns:
-            What was reported of them.
-        """
-        return Reading(
-            self.value[rows],
-            _rows_of(self.covariance, rows),
-            self.reported[rows],
-            None if self.state is None else self.state[rows],
-        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,7 +246,3 @@ class ChannelFilter(Protocol):
                 improbable ones; or there is no such output.
         """
         ...
-
-
-def _rows_of(matrices: FloatArray, rows: Rows) -> FloatArray:
-    return matrices if matrices.ndim == 2 else matrices[rows]

@@ -34,9 +34,27 @@ class SingleChannelFilter(DcmpFilter):
         self._heard = heard
         self._inner = inner if inner is not None else DcmpFilter(channels)
 
-    def _step(
-        self, belief: Belief, motion: Motion, active: Reading | None, passive: Reading | None
+    def step(
+        self,
+        belief: Belief,
+        motion: Motion,
+        active: Reading | None = None,
+        passive: Reading | None = None,
     ) -> Belief:
+        """Move on and take readings in; see ChannelFilter.step.
+
+        Args:
+            belief: at the previous time.
+            motion: from then to now.
+            active: what the active channel reported.
+            passive: what the passive channel reported.
+
+        Returns:
+            The belief now.
+
+        Raises:
+            ValueError: a reading is not finite or its covariance not positive definite.
+        """
         if self._heard == "active":
             return self._inner.step(belief, motion, active=active)
         return self._inner.step(belief, motion, passive=passive)

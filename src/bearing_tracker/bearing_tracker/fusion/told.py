@@ -35,9 +35,28 @@ class ToldFilter(DcmpFilter):
         super().__init__(channels)
         self._truth = truth
 
-    def _step(
-        self, belief: Belief, motion: Motion, active: Reading | None, passive: Reading | None
+    def step(
+        self,
+        belief: Belief,
+        motion: Motion,
+        active: Reading | None = None,
+        passive: Reading | None = None,
     ) -> Belief:
+        """Move on and take readings in; see ChannelFilter.step.
+
+        Args:
+            belief: at the previous time.
+            motion: from then to now.
+            active: what the active channel reported.
+            passive: what the passive channel reported.
+
+        Returns:
+            The belief now.
+
+        Raises:
+            ValueError: a reading is not finite or its covariance not positive definite,
+                or it does not tell the true state to the filter that must be told.
+        """
         rows, certain = np.arange(len(belief)), belief.log_probability.argmax(axis=1)
         one = Belief(
             belief.mean[rows, certain][:, None],
