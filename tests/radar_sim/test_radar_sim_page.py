@@ -37,9 +37,7 @@ def test_the_tables_of_keys_are_current(page, section):
 
 
 def test_the_examples_are_scenarios(page):
-    targets, random, disturbances = map(
-        parse_scenario, re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
-    )
+    targets, disturbances = map(parse_scenario, re.findall(r"```yaml\n(.*?)```", page, re.DOTALL))
     assert len(targets.targets) == 2
     assert len(targets.targets[1].path.legs) == 2
     assert len(disturbances.disturbances) == 6
