@@ -41,6 +41,11 @@ class Timeline:
         self._epoch: int | None = None
         self._waiting = np.zeros(0, SIGHTING)
 
+    @property
+    def stamp(self) -> int:
+        """Stamp of `now` in nanoseconds, 0 before the first message."""
+        return (self._epoch or 0) + round(self.now * NANOSECONDS) if np.isfinite(self.now) else 0
+
     def __len__(self) -> int:
         """Number of sightings that wait."""
         return len(self._waiting)
@@ -108,16 +113,16 @@ class Timeline:
         if len(rows):
             self.now = max(self.now, float(rows["time"][-1]))
 
-    def take(self, until: float | None = None) -> Rows:
+    def take(self, *, everything: bool = False) -> Rows:
         """Hand out what no longer has to wait.
 
         Args:
-            until: seconds; None for the window's end.
+            everything: whether nothing has to, because no message will follow.
 
         Returns:
             dtype SIGHTING, in order of time.
         """
-        until = self.now - self.window if until is None else until
+        until = self.now if everything else self.now - self.window
         count = int(np.searchsorted(self._waiting["time"], until, side="right"))
         taken, self._waiting = self._waiting[:count], self._waiting[count:]
         self.done = max(self.done, until)
