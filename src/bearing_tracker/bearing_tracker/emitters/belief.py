@@ -32,6 +32,19 @@ class Rows:
         chosen = np.asarray(index)
         return type(self)(*(_take(getattr(self, item.name), chosen) for item in fields(self)))
 
+    def put(self, index: npt.NDArray[np.intp], part: Self) -> Self:
+        """Exchange some emitters.
+
+        Args:
+            index: their numbers, each once, shape (k,).
+            part: what is known of these now, k of them, made by the same filter.
+
+        Returns:
+            All emitters.
+        """
+        pairs = [(getattr(self, item.name), getattr(part, item.name)) for item in fields(self)]
+        return type(self)(*(_put(whole, index, some) for whole, some in pairs))
+
     def joined(self, other: Self) -> Self:
         """Append emitters.
 
@@ -151,6 +164,16 @@ class Belief(Rows):
 
 def _take(value: npt.NDArray | Rows, chosen: npt.NDArray) -> npt.NDArray | Rows:
     return value.take(chosen) if isinstance(value, Rows) else value[chosen]
+
+
+def _put(
+    whole: npt.NDArray | Rows, index: npt.NDArray[np.intp], part: npt.NDArray | Rows
+) -> npt.NDArray | Rows:
+    if isinstance(whole, Rows) and isinstance(part, Rows):
+        return whole.put(index, part)
+    changed = np.array(whole)
+    changed[index] = part
+    return changed
 
 
 def _join(first: npt.NDArray | Rows, second: npt.NDArray | Rows) -> npt.NDArray | Rows:
