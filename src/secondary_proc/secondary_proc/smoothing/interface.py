@@ -11,9 +11,6 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 
-_EYE = np.eye(4)
-_OBSERVED = np.eye(2, 4)
-
 
 @dataclass(frozen=True, slots=True)
 class Measured:
@@ -75,14 +72,17 @@ def joseph_update(
     (I - K H) P (I - K H)' + K R K', which stays symmetric and positive definite. Source: Bucy and Joseph 1968, ch. 16.
 
     Args:
-        covariance: P before the update, shape (n, 4, 4).
-        gain: K, shape (n, 4, 2).
+        covariance: P before the update, the position being first in the state, shape (n, s, s).
+        gain: K, shape (n, s, 2).
         position_covariance: R, shape (n, 2, 2).
 
     Returns:
-        P after the update, shape (n, 4, 4).
+        P after the update, shape (n, s, s).
     """
-    keep = _EYE - gain @ _OBSERVED
+    keep = np.zeros_like(covariance)
+    keep[:, :, :2] = -gain
+    diagonal = np.arange(covariance.shape[1])
+    keep[:, diagonal, diagonal] += 1.0
     updated = keep @ covariance @ keep.transpose(0, 2, 1)
     updated += gain @ position_covariance @ gain.transpose(0, 2, 1)
     updated += updated.transpose(0, 2, 1).copy()

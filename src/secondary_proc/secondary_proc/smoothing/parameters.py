@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from radar_common.parameters import ParameterError, Parameters, parameter
 from secondary_proc.calculators.alpha_beta_gains import GAIN_RULES
+from secondary_proc.smoothing.speed_course import SPEED_COURSE_WEIGHTS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +40,39 @@ class SmoothingParameters(Parameters):
         "what the gains of alpha_beta are best for: the smoothed position, the predicted one, or a velocity that "
         "changes at random",
         choices=GAIN_RULES,
+    )
+    polynomial_plots: int = parameter(
+        6, "plots that polynomial fits, the new one included", low=3, high=16
+    )
+    polynomial_degree: int = parameter(
+        2, "1 for lines only, 2 for parabolas where a manoeuvre shows", low=1, high=2
+    )
+    speed_course_weights: str = parameter(
+        "exponential",
+        "memory of speed_course: one that fades, or a mean that grows until a manoeuvre shows",
+        choices=SPEED_COURSE_WEIGHTS,
+    )
+    position_feedback: float = parameter(
+        0.3,
+        "share of the distance to the plot by which speed_course corrects the position; with 0, as the book draws it, "
+        "the position drifts away",
+        low=0.0,
+        high=1.0,
+    )
+    imm_manoeuvres: str = parameter(
+        "accelerations",
+        "what imm expects beside quiet flight: accelerations to any side, or coordinated turns as well",
+        choices=("accelerations", "turns"),
+    )
+    manoeuvre_interval: float = parameter(
+        1000.0,
+        "mean time of quiet flight between manoeuvres, for imm",
+        unit="s",
+        low=1.0,
+        high=1e5,
+    )
+    manoeuvre_duration: float = parameter(
+        30.0, "mean duration of a manoeuvre, for imm", unit="s", low=0.1, high=1e4
     )
 
     def check(self) -> None:
