@@ -80,7 +80,7 @@ class BearingFusion:
         Returns:
             The last fused bearings.
         """
-        return self._table(self._timeline.take(everything=True), self._timeline.stamp)
+        return self._table(self._timeline.take(self._timeline.now), self._timeline.stamp)
 
     def _begin(self) -> None:
         self._timeline = Timeline(self.parameters.buffer, self.health)

@@ -113,16 +113,16 @@ class Timeline:
         if len(rows):
             self.now = max(self.now, float(rows["time"][-1]))
 
-    def take(self, *, everything: bool = False) -> Rows:
+    def take(self, until: float | None = None) -> Rows:
         """Hand out what no longer has to wait.
 
         Args:
-            everything: whether nothing has to, because no message will follow.
+            until: seconds, no later than `now`; None for the end of the window.
 
         Returns:
             dtype SIGHTING, in order of time.
         """
-        until = self.now if everything else self.now - self.window
+        until = self.now - self.window if until is None else until
         count = int(np.searchsorted(self._waiting["time"], until, side="right"))
         taken, self._waiting = self._waiting[:count], self._waiting[count:]
         self.done = max(self.done, until)
