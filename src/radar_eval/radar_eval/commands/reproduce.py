@@ -62,7 +62,8 @@ def _print_table(source: str, rows: list[Row]) -> None:
     print(f"{'':<{width}}  {'published':>11} {'expected':>11} {'ours':>11}")
     for row in rows:
         published = "-" if row.published is None else f"{row.published:.6g}"
-        verdict = "" if row.holds else "  DIFFERS"
+        error = "" if row.standard_error is None else f" ± {row.standard_error:.2g}"
+        verdict = error if row.holds else f"{error}  DIFFERS"
         print(
             f"{row.label:<{width}}  {published:>11} {row.expected:>11.6g} {row.ours:>11.6g}{verdict}"
         )

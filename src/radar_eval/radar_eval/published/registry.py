@@ -13,6 +13,7 @@ from radar_eval.published.azimuth_accuracy import azimuth_accuracies
 from radar_eval.published.burst_detection import burst_detection
 from radar_eval.published.cfar_thresholds import cfar_thresholds
 from radar_eval.published.detection_probability import detection_probabilities
+from radar_eval.published.detkov import detkov_table
 from radar_eval.published.false_tracks import false_tracks
 from radar_eval.published.gates import gate_probabilities
 from radar_eval.published.level_quantisation import level_quantisation
@@ -141,6 +142,12 @@ RESULTS = {
             "J. I. Marcum 1947, P. Swerling 1954; W. J. Albersheim, Proc. IEEE 69, 1981; "
             "D. A. Shnidman, IEEE Trans. AES 38, 2002",
             required_snr,
+        ),
+        PublishedResult(
+            "detkov-table-1",
+            "A. N. Detkov, Journal of Communications Technology and Electronics (Radiotekhnika i Elektronika) 67, "
+            "2022, Table 1",
+            detkov_table,
         ),
     )
 }

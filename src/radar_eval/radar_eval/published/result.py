@@ -19,6 +19,7 @@ class Row:
         ours: as the packages compute it.
         tolerance: largest difference of ours from expected that is agreement.
         finding: why published and expected differ, where they do.
+        standard_error: of ours, where it is a mean over simulated runs.
     """
 
     label: str
@@ -27,6 +28,7 @@ class Row:
     ours: float
     tolerance: float
     finding: str = ""
+    standard_error: float | None = None
 
     @property
     def holds(self) -> bool:
@@ -37,7 +39,7 @@ class Row:
         """Write the row for machines.
 
         Returns:
-            Its fields and the verdict; the finding only where there is one.
+            Its fields and the verdict; finding and standard error only where there is one.
         """
         row: dict[str, Any] = {
             "label": self.label,
@@ -47,6 +49,8 @@ class Row:
             "tolerance": self.tolerance,
             "holds": self.holds,
         }
+        if self.standard_error is not None:
+            row["standard_error"] = self.standard_error
         return row | ({"finding": self.finding} if self.finding else {})
 
 
