@@ -5,16 +5,22 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from bearing_tracker.fusion_parameters import FusionParameters
+from bearing_tracker.locator_parameters import LocatorParameters
 from primary_proc.parameters import ExtractorParameters
 from radar_common.parameters import Parameters, to_markdown, to_yaml
+from radar_sim.bearings.parameters import BearingSimulatorParameters
 from radar_sim.parameters import SimulatorParameters
 from secondary_proc.parameters import TrackerParameters
 
 ROOT = Path(__file__).resolve().parents[1]
 NODES: dict[str, tuple[str, type[Parameters]]] = {
     "radar_simulator": ("radar_sim", SimulatorParameters),
+    "bearing_simulator": ("radar_sim", BearingSimulatorParameters),
     "plot_extractor": ("primary_proc", ExtractorParameters),
     "tracker": ("secondary_proc", TrackerParameters),
+    "bearing_fusion": ("bearing_tracker", FusionParameters),
+    "emitter_locator": ("bearing_tracker", LocatorParameters),
 }
 
 

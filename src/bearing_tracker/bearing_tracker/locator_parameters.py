@@ -177,6 +177,7 @@ class LocatorParameters(Parameters):
     publish_poses: bool = parameter(
         False,
         "publish each confirmed emitter whose range is known on emitters/id_<id>/pose",
+        read_only=True,
     )
     maximum_bearings: int = parameter(
         10000,
