@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bearing_tracker.emitters import heard_from, mixture, motion
 from bearing_tracker.emitters.belief import Belief, Prior
-from bearing_tracker.emitters.corrections.interface import Correction, Look
+from bearing_tracker.emitters.corrections.interface import FARTHER, NEARER, Correction, Look
 from bearing_tracker.emitters.interface import (
     BoolArray,
     Estimate,
@@ -20,6 +20,7 @@ from bearing_tracker.emitters.interface import (
 )
 from bearing_tracker.emitters.range_prior import merged, range_bins, whole_range
 from bearing_tracker.emitters.reading import expect_bearings, read_estimate
+from radar_common.frames import enu_from_polar
 
 
 class FilterBank:
@@ -145,7 +146,9 @@ class FilterBank:
             weight=weight,
             observer=observer,
             observer_velocity=np.where(moved[:, np.newaxis], velocity, belief.observer_velocity),
-            geometry=heard_from.passed(belief.geometry, seconds),
+            geometry=heard_from.passed(
+                belief.geometry, seconds, weight.sum(axis=1) @ self._acceleration_std**2
+            ),
         )
 
     def step(
@@ -192,13 +195,16 @@ class FilterBank:
             part.prior.range_high[:, np.newaxis, np.newaxis],
         )
         corrected = self._correction(part.mean, part.covariance, look)
+        weight, mean, covariance = mixture.revived(
+            mixture.reweighted(part.weight, corrected.log_likelihood),
+            _within_reach(corrected.mean, look),
+            corrected.covariance,
+        )
         return replace(
             predicted,
-            mean=_put(predicted.mean, rows, corrected.mean),
-            covariance=_put(predicted.covariance, rows, corrected.covariance),
-            weight=_put(
-                predicted.weight, rows, mixture.reweighted(part.weight, corrected.log_likelihood)
-            ),
+            mean=_put(predicted.mean, rows, mean),
+            covariance=_put(predicted.covariance, rows, covariance),
+            weight=_put(predicted.weight, rows, weight),
             geometry=heard_from.heard_again(geometry, part.observer, inflated, rows),
         )
 
@@ -223,6 +229,18 @@ class FilterBank:
             State, covariance, range and what they are worth.
         """
         return read_estimate(belief, self._settings)
+
+
+def _within_reach(mean: FloatArray, look: Look) -> FloatArray:
+    """Hold components before the observer: past it or on it, the azimuth says nothing linear any more."""
+    direction = np.stack(enu_from_polar(np.ones_like(look.azimuth), look.azimuth), axis=-1)
+    distance = ((mean[..., :2] - look.observer) * direction).sum(axis=-1)
+    shift = np.clip(distance, look.range_low / NEARER, look.range_high * FARTHER) - distance
+    if not shift.any():
+        return mean
+    held = mean.copy()
+    held[..., :2] += shift[..., np.newaxis] * direction
+    return held
 
 
 def _outer(length: FloatArray, direction: FloatArray) -> FloatArray:

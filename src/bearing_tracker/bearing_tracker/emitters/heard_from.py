@@ -32,21 +32,35 @@ def first_heard(observer: FloatArray, variance: FloatArray) -> Geometry:
     places[:, 0], weight[:, 0] = observer, 1.0 / variance
     one, nothing = np.ones(emitters, dtype=np.intp), np.zeros(emitters)
     return Geometry(
-        np.zeros((emitters, PLACES)), places, weight, one, one, nothing, nothing, observer
+        time=np.zeros((emitters, PLACES)),
+        observer=places,
+        weight=weight,
+        unrest=np.zeros((emitters, PLACES)),
+        places=one,
+        bearings=one,
+        heard=nothing,
+        now=nothing,
+        unrest_now=nothing,
+        first_observer=observer,
     )
 
 
-def passed(geometry: Geometry, seconds: FloatArray) -> Geometry:
+def passed(geometry: Geometry, seconds: FloatArray, acceleration_variance: FloatArray) -> Geometry:
     """Let time pass.
 
     Args:
         geometry: of n emitters.
         seconds: shape (n,).
+        acceleration_variance: of the emitters in that time, m^2/s^4, shape (n,).
 
     Returns:
         The same at the later time.
     """
-    return replace(geometry, now=geometry.now + seconds)
+    return replace(
+        geometry,
+        now=geometry.now + seconds,
+        unrest_now=geometry.unrest_now + acceleration_variance * seconds**2,
+    )
 
 
 def heard_again(
@@ -63,42 +77,37 @@ def heard_again(
     Returns:
         The geometry with the new places.
     """
-    time, places, weight = geometry.time.copy(), geometry.observer.copy(), geometry.weight.copy()
-    used, bearings, heard = (
-        geometry.places.copy(),
-        geometry.bearings.copy(),
-        geometry.heard.copy(),
-    )
+    time, places = geometry.time.copy(), geometry.observer.copy()
+    weight, unrest = geometry.weight.copy(), geometry.unrest.copy()
+    used, bearings = geometry.places.copy(), geometry.bearings.copy()
+    heard = geometry.heard.copy()
     full = rows[used[rows] == PLACES]
     if len(full):
-        _halve(time, places, weight, full)
+        share = weight[full].reshape(len(full), -1, 2)
+        for array in (time, places, unrest):
+            array[full] = _paired(array[full], share)
+        weight[full] = np.concatenate([share.sum(axis=-1), np.zeros_like(share[..., 0])], axis=1)
         used[full] = PLACES // 2
-    at = used[rows]
-    time[rows, at], places[rows, at], weight[rows, at] = (
-        geometry.now[rows],
-        observer,
-        1.0 / variance,
-    )
+    at, now = used[rows], geometry.now[rows]
+    time[rows, at], places[rows, at], weight[rows, at] = now, observer, 1.0 / variance
+    unrest[rows, at] = geometry.unrest_now[rows]
     used[rows] += 1
     bearings[rows] += 1
-    heard[rows] = geometry.now[rows]
-    return Geometry(
-        time, places, weight, used, bearings, heard, geometry.now, geometry.first_observer
+    heard[rows] = now
+    return replace(
+        geometry,
+        time=time,
+        observer=places,
+        weight=weight,
+        unrest=unrest,
+        places=used,
+        bearings=bearings,
+        heard=heard,
     )
 
 
-def _halve(
-    time: FloatArray, places: FloatArray, weight: FloatArray, rows: npt.NDArray[np.intp]
-) -> None:
-    """Merge each two neighbours of some emitters, in place, by their weights."""
-    pairs = weight[rows].reshape(len(rows), -1, 2)
-    total = pairs.sum(axis=-1)
-    share = pairs / total[..., np.newaxis]
-    half = PLACES // 2
-    merged_time = (share * time[rows].reshape(len(rows), half, 2)).sum(axis=-1)
-    merged_places = (share[..., np.newaxis] * places[rows].reshape(len(rows), half, 2, 2)).sum(
-        axis=2
-    )
-    for array, merged in ((time, merged_time), (places, merged_places), (weight, total)):
-        array[rows, :half] = merged
-        array[rows, half:] = 0.0
+def _paired(values: FloatArray, weight: FloatArray) -> FloatArray:
+    """Weighted means of neighbours on axis 1, then zeros; weights of shape (k, K / 2, 2)."""
+    pairs = values.reshape(len(values), PLACES // 2, 2, -1)
+    means = (weight[..., np.newaxis] * pairs).sum(axis=2) / weight.sum(axis=2)[..., np.newaxis]
+    return np.concatenate([means, np.zeros_like(means)], axis=1).reshape(values.shape)

@@ -20,28 +20,29 @@ from bearing_tracker.emitters.sight import Sight, sight
 FloatArray = npt.NDArray[np.float64]
 
 
-def bearing_information(
-    geometry: Geometry, state: FloatArray, acceleration_std: float
-) -> FloatArray:
+def bearing_information(geometry: Geometry, state: FloatArray) -> FloatArray:
     """Fisher information of all bearings about the state now, along the path that leads to it.
+
+    The path is less certain the longer ago, by the accelerations since: each place's variance grows by that, as if the
+    growths were independent. They are not, so this is exact for none and to first order for few.
 
     Args:
         geometry: where the bearings came from.
         state: (x, y, vx, vy) now, metres and m/s, shape (n, 4).
-        acceleration_std: of the emitter over a mean step, m/s^2. Its path is less certain the longer ago: each place's
-            variance grows by that, as if the errors of places were independent (they are not: the result is an
-            approximation to first order, exact at 0).
 
     Returns:
         Shape (n, 4, 4).
     """
-    age = np.where(geometry.weight > 0.0, geometry.now[:, np.newaxis] - geometry.time, 0.0)
+    used = int(geometry.places.max(initial=1))
+    weight, observer = geometry.weight[:, :used], geometry.observer[:, :used]
+    taken = weight > 0.0
+    age = np.where(taken, geometry.now[:, np.newaxis] - geometry.time[:, :used], 0.0)
     then = state[:, np.newaxis, :2] - age[..., np.newaxis] * state[:, np.newaxis, 2:]
-    seen = sight(then - geometry.observer)
+    seen = sight(then - observer)
     gradient = np.concatenate([seen.gradient, -age[..., np.newaxis] * seen.gradient], axis=-1)
-    density = _acceleration_density(geometry, acceleration_std)
-    drift = density[:, np.newaxis] * age**3 / 3.0 / seen.range**2
-    weight = geometry.weight / (1.0 + geometry.weight * drift)
+    unrest = np.where(taken, geometry.unrest_now[:, np.newaxis] - geometry.unrest[:, :used], 0.0)
+    drift = unrest * age**2 / 3.0 / seen.range**2
+    weight = weight / (1.0 + weight * drift)
     return np.swapaxes(gradient * weight[..., np.newaxis], -1, -2) @ gradient
 
 
@@ -58,14 +59,9 @@ def range_information(
     Returns:
         Its inverse square root is the smallest relative error of range, shape (n,).
     """
-    basis = np.zeros_like(bearings)
-    basis[:, :2, 0], basis[:, :2, 1] = line_of_sight.along, line_of_sight.across
-    # In units of the distance, else metres and metres per second make the matrix ill-conditioned.
-    basis *= line_of_sight.range[:, np.newaxis, np.newaxis]
-    basis[:, 2, 2] = basis[:, 3, 3] = 1.0
     total = bearings.copy()
     total[:, 2:, 2:] += np.linalg.inv(velocity_covariance)
-    turned = np.swapaxes(basis, -1, -2) @ total @ basis
+    turned, _ = _by_range(total, line_of_sight)
     others = np.linalg.solve(turned[:, 1:, 1:], turned[:, 1:, :1])
     known = turned[:, 0, 0] - (turned[:, :1, 1:] @ others)[:, 0, 0]
     return np.maximum(known, 0.0)
@@ -75,9 +71,9 @@ def bound(
     bearings: FloatArray,
     geometry: Geometry,
     state: FloatArray,
+    line_of_sight: Sight,
     prior: Prior,
     range_spread: FloatArray,
-    acceleration_std: float,
 ) -> FloatArray:
     """Cramer-Rao bound of the state now, from the bearings and the prior.
 
@@ -85,25 +81,25 @@ def bound(
         bearings: information of the bearings, shape (n, 4, 4).
         geometry: where they came from.
         state: (x, y, vx, vy) now, shape (n, 4).
+        line_of_sight: to it, n of them.
         prior: of n emitters.
         range_spread: standard deviation of its range, metres, shape (n,).
-        acceleration_std: of the emitter over a mean step, m/s^2.
 
     Returns:
         Covariances that no unbiased estimate can undercut, shape (n, 4, 4).
     """
-    age = geometry.now
-    density = _acceleration_density(geometry, acceleration_std)
+    age, unrest = geometry.now, geometry.unrest_now
     start = state[:, :2] - age[:, np.newaxis] * state[:, 2:]
     along = sight(start - geometry.first_observer).along
     gradient = np.concatenate([along, -age[:, np.newaxis] * along], axis=-1)
-    variance = range_spread**2 + density * age**3 / 3.0
+    variance = range_spread**2 + unrest * age**2 / 3.0
     total = bearings + (
         gradient[:, :, np.newaxis] * gradient[:, np.newaxis] / variance[:, np.newaxis, np.newaxis]
     )
-    velocity = prior.velocity_covariance + (density * age)[:, np.newaxis, np.newaxis] * np.eye(2)
+    velocity = prior.velocity_covariance + unrest[:, np.newaxis, np.newaxis] * np.eye(2)
     total[:, 2:, 2:] += np.linalg.inv(velocity)
-    return np.linalg.inv(total)
+    scaled, basis = _by_range(total, line_of_sight)
+    return basis @ np.linalg.inv(scaled) @ np.swapaxes(basis, -1, -2)
 
 
 def bound_along(
@@ -138,7 +134,10 @@ def bound_along(
     return np.stack(bounds)
 
 
-def _acceleration_density(geometry: Geometry, acceleration_std: float) -> FloatArray:
-    """Of the white acceleration that drifts as far as constant ones over mean steps do, m^2/s^3, shape (n,)."""
-    step = geometry.heard / np.maximum(geometry.bearings - 1, 1)
-    return acceleration_std**2 * step
+def _by_range(matrix: FloatArray, line_of_sight: Sight) -> tuple[FloatArray, FloatArray]:
+    """Information in units of range along and across the sight, and their basis; in metres it is ill-conditioned."""
+    basis = np.zeros_like(matrix)
+    basis[:, :2, 0], basis[:, :2, 1] = line_of_sight.along, line_of_sight.across
+    basis *= line_of_sight.range[:, np.newaxis, np.newaxis]
+    basis[:, 2, 2] = basis[:, 3, 3] = 1.0
+    return np.swapaxes(basis, -1, -2) @ matrix @ basis, basis

@@ -9,6 +9,7 @@ import numpy.typing as npt
 FloatArray = npt.NDArray[np.float64]
 
 _LEAST = 1e-30
+_LOST, _REVIVED = 1e-6, 1e-5
 
 
 def moments(
@@ -46,6 +47,41 @@ def reweighted(weight: FloatArray, log_likelihood: FloatArray) -> FloatArray:
     logarithm -= logarithm.max(axis=(1, 2), keepdims=True)
     weight = np.maximum(np.exp(logarithm), _LEAST)
     return weight / weight.sum(axis=(1, 2), keepdims=True)
+
+
+def revived(
+    weight: FloatArray, mean: FloatArray, covariance: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Let bins that the bearings have ruled out take the place of the rest.
+
+    A filter at a wrong range ends up anywhere, and would spoil the whole when bearings surprise it. In the place of the
+    others it does no harm, and catches what they lose.
+
+    Args:
+        weight: of sum one over B and M, shape (n, B, M).
+        mean: shape (n, B, M, D).
+        covariance: shape (n, B, M, D, D).
+
+    Returns:
+        Weights, means and covariances, shapes as before.
+    """
+    lost = weight.sum(axis=2) < _LOST
+    rows = np.flatnonzero(lost.any(axis=1))
+    if not len(rows):
+        return weight, mean, covariance
+    where = lost[rows][:, :, np.newaxis]
+    given = np.maximum(weight[rows], _LEAST)
+    share = np.moveaxis(given / given.sum(axis=1, keepdims=True), 1, 2)
+    centre, spread = moments(share, mean[rows].swapaxes(1, 2), covariance[rows].swapaxes(1, 2))
+    of_models = _REVIVED * given.sum(axis=1, keepdims=True)
+    weight, mean, covariance = weight.copy(), mean.copy(), covariance.copy()
+    weight[rows] = np.where(where, of_models, weight[rows])
+    weight[rows] /= weight[rows].sum(axis=(1, 2), keepdims=True)
+    mean[rows] = np.where(where[..., np.newaxis], centre[:, np.newaxis], mean[rows])
+    covariance[rows] = np.where(
+        where[..., np.newaxis, np.newaxis], spread[:, np.newaxis], covariance[rows]
+    )
+    return weight, mean, covariance
 
 
 def switching(seconds: FloatArray, quiet_time: float, manoeuvre_time: float) -> FloatArray:

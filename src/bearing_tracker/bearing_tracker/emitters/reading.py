@@ -51,13 +51,11 @@ def read_estimate(belief: Belief, settings: FilterSettings) -> Estimate:
     azimuth, azimuth_std = _angle_moments(belief.weight, each.azimuth, across)
     seen = sight(state[:, :2] - belief.observer)
     geometry = belief.geometry
-    bearings = information.bearing_information(geometry, state, settings.acceleration_std)
+    bearings = information.bearing_information(geometry, state)
     doubtful = settings.speed_doubt**2 * belief.prior.velocity_covariance
     told = information.range_information(bearings, doubtful, seen)
     known = told * settings.known_range_error**2 >= 1.0
-    limit = information.bound(
-        bearings, geometry, state, belief.prior, belief.range_spread, settings.acceleration_std
-    )
+    limit = information.bound(bearings, geometry, state, seen, belief.prior, belief.range_spread)
     least = np.where(known, 0.0, belief.range_spread)
     spread, range_std = _no_surer(spread, seen, least)
     return Estimate(
@@ -99,4 +97,4 @@ def _angle_moments(
 
 
 def _along(covariance: FloatArray, gradient: FloatArray) -> FloatArray:
-    return ((covariance @ gradient[..., np.newaxis])[..., 0] * gradient).sum(axis=-1)
+    return np.einsum("...ij,...i,...j->...", covariance, gradient, gradient)

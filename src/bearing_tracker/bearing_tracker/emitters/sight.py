@@ -25,16 +25,22 @@ class Sight(NamedTuple):
     """Line of sight.
 
     Attributes:
-        azimuth: radians clockwise from north in [0, 2 pi), shape (...).
         range: metres, at least `NEAREST`, shape (...).
         along: unit vector towards the emitter, shape (..., 2).
-        across: unit vector of growing azimuth, shape (..., 2).
     """
 
-    azimuth: FloatArray
     range: FloatArray
     along: FloatArray
-    across: FloatArray
+
+    @property
+    def azimuth(self) -> FloatArray:
+        """Radians clockwise from north in [0, 2 pi), shape (...)."""
+        return polar_from_enu(self.along[..., 0], self.along[..., 1])[1]
+
+    @property
+    def across(self) -> FloatArray:
+        """Unit vector of growing azimuth, shape (..., 2)."""
+        return self.along[..., ::-1] * (1.0, -1.0)
 
     @property
     def gradient(self) -> FloatArray:
@@ -51,11 +57,5 @@ def sight(relative: FloatArray) -> Sight:
     Returns:
         Its line of sight.
     """
-    distance, azimuth = polar_from_enu(relative[..., 0], relative[..., 1])
-    sine, cosine = np.sin(azimuth), np.cos(azimuth)
-    return Sight(
-        azimuth,
-        np.maximum(distance, NEAREST),
-        np.stack([sine, cosine], axis=-1),
-        np.stack([cosine, -sine], axis=-1),
-    )
+    distance = np.maximum(np.hypot(relative[..., 0], relative[..., 1]), NEAREST)
+    return Sight(distance, relative / distance[..., np.newaxis])

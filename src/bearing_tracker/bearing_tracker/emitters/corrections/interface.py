@@ -11,6 +11,9 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 
+NEARER, FARTHER = 3.0, 2.0
+"""No density is kept that is nearer than the prior's range_low over the one, or beyond range_high times the other."""
+
 
 class Look(NamedTuple):
     """Bearings, broadcast over the components of the bank.
@@ -72,11 +75,11 @@ def correct_linear(
     Returns:
         The corrected density; the likelihood is a density of z.
     """
-    projected = (covariance @ gradient[..., np.newaxis])[..., 0]
+    projected = np.einsum("...ij,...j->...i", covariance, gradient)
     innovation_variance = (gradient * projected).sum(axis=-1) + variance
     gain = projected / innovation_variance[..., np.newaxis]
     kept = covariance - gain[..., :, np.newaxis] * projected[..., np.newaxis, :]
-    remaining = (kept @ gradient[..., np.newaxis])[..., 0]
+    remaining = np.einsum("...ij,...j->...i", kept, gradient)
     # The last two terms of Joseph's form, (P - k h P)(I - k h)' + k R k', share the right factor k'.
     right = variance[..., np.newaxis] * gain - remaining
     updated = kept + right[..., :, np.newaxis] * gain[..., np.newaxis, :]

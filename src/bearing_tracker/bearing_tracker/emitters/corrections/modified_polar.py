@@ -12,6 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from bearing_tracker.emitters.corrections.interface import (
+    FARTHER,
+    NEARER,
     Corrected,
     FloatArray,
     Look,
@@ -20,8 +22,6 @@ from bearing_tracker.emitters.corrections.interface import (
 from bearing_tracker.emitters.sight import sight
 from radar_common.frames import wrap_pi
 
-_NEARER, _FARTHER = 3.0, 0.5
-
 
 def modified_polar(mean: FloatArray, covariance: FloatArray, look: Look) -> Corrected:
     """Correct in modified polar coordinates.
@@ -29,7 +29,7 @@ def modified_polar(mean: FloatArray, covariance: FloatArray, look: Look) -> Corr
     Args:
         mean: of (x, y, vx, vy[, g]), shape (n, B, M, D).
         covariance: of it, shape (n, B, M, D, D).
-        look: the bearings; 1 / range is held between half of 1 / range_high and three times 1 / range_low.
+        look: the bearings; 1 / range is held within reach, since a negative one is an emitter behind the observer.
 
     Returns:
         The corrected densities, in Cartesian coordinates.
@@ -49,8 +49,8 @@ def modified_polar(mean: FloatArray, covariance: FloatArray, look: Look) -> Corr
     )
     np.clip(
         corrected.mean[..., 3],
-        _FARTHER / look.range_high,
-        _NEARER / look.range_low,
+        1.0 / (FARTHER * look.range_high),
+        NEARER / look.range_low,
         out=corrected.mean[..., 3],
     )
     back = _jacobian(corrected.mean)
