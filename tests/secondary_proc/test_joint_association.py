@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from secondary_proc.association.joint_events import MOST_SETS, joint_probabilities
-from secondary_proc.association.mixture import mix, scattered
+from secondary_proc.association.mixture import mix, scatter_of_state
 from secondary_proc.smoothing import joseph_update
 
 
@@ -102,7 +102,9 @@ def test_a_filter_given_the_mixture_does_probabilistic_data_association(probabil
     )
     ours, after = kalman(state[None], covariance[None], mixture.position, mixture.covariance)
     np.testing.assert_allclose(ours[0], book_state, rtol=1e-9)
-    np.testing.assert_allclose(scattered(after, mixture)[0], book_covariance, rtol=1e-8)
+    np.testing.assert_allclose(
+        after[0] + scatter_of_state(after, mixture)[0], book_covariance, rtol=1e-8
+    )
 
 
 def test_a_plot_surely_right_stays_as_it_is():

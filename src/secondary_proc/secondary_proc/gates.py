@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from radar_common.tables import TrackStatus
+from secondary_proc.gating.three_sizes import narrowed
 from secondary_proc.motion import (
     normalised_square,
     predict_position_covariance,
@@ -25,6 +27,7 @@ IndexArray = npt.NDArray[np.intp]
 
 _MOST_NEIGHBOURS = 4_000_000
 _FEW_PAIRS = 256
+CONFIRMED = int(TrackStatus.CONFIRMED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +57,7 @@ def gate(
     sigmas: float,
     noise_density: float,
     shortest: float,
+    narrow: float | None = None,
 ) -> Gated:
     """Find the plots in each track's gate, every plot at its own time.
 
@@ -64,6 +68,7 @@ def gate(
         sigmas: half axis of the gate in standard deviations.
         noise_density: power spectral density of the acceleration that the gate stays open for, m^2/s^3.
         shortest: seconds that must lie between two plots of a track.
+        narrow: noise density of quiet flight, for gates of which the smallest with a plot counts; None for one size.
 
     Returns:
         Pairs of track and plot.
@@ -82,6 +87,16 @@ def gate(
     expected += plots.covariance[plot]
     distance_squared, determinant = normalised_square(difference, expected)
     inside = (distance_squared <= sigmas**2).nonzero()[0]
+    if narrow is not None:
+        track, plot, difference = track[inside], plot[inside], difference[inside]
+        distance_squared, determinant = distance_squared[inside], determinant[inside]
+        quiet = predict_position_covariance(store["covariance"][track], seconds[inside], narrow)
+        quiet += plots.covariance[plot]
+        straight = (store["status"][track] == CONFIRMED) & (store["misses"][track] == 0)
+        tried = narrowed(track, straight, difference, quiet, sigmas)
+        distance_squared[tried.narrow] = tried.distance_squared[tried.narrow]
+        determinant[tried.narrow] = tried.determinant[tried.narrow]
+        inside = tried.kept.nonzero()[0]
     return Gated(
         track[inside], plot[inside], distance_squared[inside], determinant[inside], skipped
     )

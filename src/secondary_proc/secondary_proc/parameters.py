@@ -6,7 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from radar_common.parameters import ParameterError, parameter
-from secondary_proc.association import ASSOCIATIONS
+from secondary_proc.association import ASSOCIATIONS, SOFT
+from secondary_proc.association.soft import WEIGHING_SMOOTHERS
+from secondary_proc.gating import GATE_SHAPES
 from secondary_proc.initiation import DROP_RULES, INITIATIONS
 from secondary_proc.smoothing import SMOOTHERS, SmoothingParameters
 
@@ -64,6 +66,10 @@ class TrackerParameters(SmoothingParameters):
     tentative_misses: int = parameter(
         2, "scans in a row without a plot that end a tentative track", low=1, high=20
     )
+    amplitude_likelihood: bool = parameter(
+        False,
+        "whether a plot's strength tells targets from false plots; how much is learned from the plots themselves",
+    )
     drop_rule: str = parameter(
         "rule",
         "what ends a tentative track: its rule (for likelihood_ratio these are misses), tentative_misses, or a score "
@@ -91,6 +97,12 @@ class TrackerParameters(SmoothingParameters):
         unit="sigma",
         low=1.0,
         high=10.0,
+    )
+    gate_shape: str = parameter(
+        "ellipse",
+        "one ellipse wide enough for a manoeuvre, or the smallest of three that holds a plot: for straight flight, for "
+        "a manoeuvre, and after misses",
+        choices=GATE_SHAPES,
     )
     false_plots_nearer: float = parameter(
         0.02,
@@ -134,6 +146,11 @@ class TrackerParameters(SmoothingParameters):
             raise ParameterError(
                 f"confirm_hits {self.confirm_hits} do not fit into a confirm_window of "
                 f"{self.confirm_window} scans"
+            )
+        if self.association in SOFT and self.smoother not in WEIGHING_SMOOTHERS:
+            raise ParameterError(
+                f"association {self.association} needs a smoother that weighs plots by their errors: "
+                f"{', '.join(WEIGHING_SMOOTHERS)}, not {self.smoother}"
             )
         if self.minimum_speed >= self.maximum_speed:
             raise ParameterError(

@@ -9,12 +9,15 @@ import numpy.typing as npt
 from radar_common.health import Health
 from radar_common.tables import PLOT, SITE_FRAME, TRACK, Table
 from secondary_proc import score
-from secondary_proc.association import ASSOCIATIONS, GateGraph
+from secondary_proc.association import ASSOCIATIONS, SOFT, GateGraph
+from secondary_proc.association.soft import Contest
 from secondary_proc.clutter import FalsePlotDensity
 from secondary_proc.gates import Gated
+from secondary_proc.gating import SelectionWatch
+from secondary_proc.initiation.strength import StrengthRatio
 from secondary_proc.parameters import TrackerParameters
 from secondary_proc.plot_queue import PlotQueue
-from secondary_proc.plots import AZIMUTH, TIME, FloatArray, Plots
+from secondary_proc.plots import AZIMUTH, STRENGTH, TIME, FloatArray, Plots
 from secondary_proc.rotation import Rotation
 from secondary_proc.starts import Annulus, Starts
 from secondary_proc.tracks import Tracks
@@ -26,7 +29,8 @@ _LONGEST_SLICE = 0.25
 _COMPETITORS = 1 / 32
 _RESTART = 5.0
 _CHANGE = 0.003
-_CONFIRMED_FIRST = 1e4
+_WATCHED = 64
+"""Of so many slices of time one is looked at to tell how surely plots are selected."""
 _SECONDS_PER_HOUR = 3600.0
 _NO_ROWS = np.zeros(0, TRACK)
 
@@ -54,6 +58,7 @@ class Tracker:
         """
         self.parameters = parameters
         self._tracks.reconfigure(parameters, self._rotation)
+        self._prepare()
 
     @property
     def period(self) -> float:
@@ -83,6 +88,8 @@ class Tracker:
             self._tracks.reconfigure(self.parameters, self._rotation)
         elapsed = max(stamp - self._queue.now, 0.0) if np.isfinite(self._queue.now) else 0.0
         self._clutter.forget(elapsed / self._rotation.period)
+        if self._strength is not None:
+            self._strength.forget(elapsed / self._rotation.period)
         accepted = self._queue.put(plots, self.parameters, self._rotation.period)
         self.health.count("plots in", len(accepted))
         locks = self._rotation.locks
@@ -110,6 +117,17 @@ class Tracker:
         self._rotation = Rotation(self.parameters.scan_period)
         self._clutter = FalsePlotDensity(self.parameters.maximum_range)
         self._starts = Starts()
+        self._strength: StrengthRatio | None = None
+        self._slices = 0
+        self._prepare()
+
+    def _prepare(self) -> None:
+        parameters = self.parameters
+        if not parameters.amplitude_likelihood:
+            self._strength = None
+        elif self._strength is None:
+            self._strength = StrengthRatio()
+        self._selection = SelectionWatch(parameters.gate_sigmas, parameters.detection_probability)
 
     def _drain(self, out: list[Rows], *, everything: bool = False) -> None:
         period = self._tracks.period
@@ -120,19 +138,22 @@ class Tracker:
         ) is not None:
             rows, ripe = taken
             self._miss(min(rows[0, TIME], self._queue.now), out)
-            self._work(Plots.from_queue(rows), ripe, out)
+            self._work(Plots.from_queue(rows), rows, ripe, out)
         self._miss(self._queue.now, out)
 
     def _miss(self, until: float, out: list[Rows]) -> None:
         if self._rotation.tells_passages(self._queue.now):
             out.extend(self._tracks.miss(until))
 
-    def _work(self, plots: Plots, ripe: int, out: list[Rows]) -> None:
+    def _work(self, plots: Plots, rows: FloatArray, ripe: int, out: list[Rows]) -> None:
         gated = self._tracks.gate(plots)
+        strange = self._strength.ratio(rows[:, STRENGTH]) if self._strength is not None else None
         unclaimed = np.ones(ripe, bool)
         untracked = np.ones(ripe, bool)
         if len(gated.track):
             density = self._clutter.per_area(plots.range[gated.plot])
+            if strange is not None:
+                density *= strange[gated.plot]
             gain = self._gain(gated, density)
             confirmed = self._tracks.is_confirmed(gated.track)
             edges = self._choose(gated, gain, density, confirmed, ripe)
@@ -141,12 +162,20 @@ class Tracker:
             unclaimed[plot[now]] = False
             untracked[plot[now & confirmed[edges]]] = False
             if len(edges):
-                gains, threshold = gain[edges], self._threshold()
-                out.append(self._tracks.update(gated.track[edges], plots[plot], gains, threshold))
+                self._slices += 1
+                if self._slices % _WATCHED == 0:
+                    self._look(gated, gain, density, edges[confirmed[edges]])
+                gains = self._score_gain(gated, gain, density, edges)
+                contest = self._contest(gated, gain, confirmed, edges, plots)
+                tracks, taken = gated.track[edges], plots[plot]
+                out.append(self._tracks.update(tracks, taken, gains, self._threshold(), contest))
                 self._queue.take_also(plot[~now] - ripe)
         self._clutter.observe(plots.range[:ripe][untracked])
+        if self._strength is not None:
+            self._strength.observe(rows[:ripe, STRENGTH], ~untracked)
         if unclaimed.any():
-            self._open(plots[:ripe][unclaimed], out)
+            few = strange[:ripe][unclaimed] if strange is not None else None
+            self._open(plots[:ripe][unclaimed], few, out)
 
     def _gain(self, gated: Gated, density: FloatArray) -> FloatArray:
         return score.hit(
@@ -155,6 +184,33 @@ class Tracker:
             gated.determinant,
             density,
         )
+
+    def _score_gain(
+        self, gated: Gated, gain: FloatArray, density: FloatArray, edges: npt.NDArray[np.intp]
+    ) -> FloatArray:
+        by_hits = self._tracks.hit_gain
+        if by_hits is None:
+            return gain[edges]
+        return by_hits(gated.determinant[edges], density[edges])
+
+    def _contest(
+        self,
+        gated: Gated,
+        gain: FloatArray,
+        confirmed: npt.NDArray[np.bool_],
+        edges: npt.NDArray[np.intp],
+        plots: Plots,
+    ) -> Contest | None:
+        if self.parameters.association not in SOFT:
+            return None
+        weight = gain - score.miss(self.parameters.detection_probability)
+        return Contest(gated, weight, confirmed, edges, plots)
+
+    def _look(
+        self, gated: Gated, gain: FloatArray, density: FloatArray, taken: npt.NDArray[np.intp]
+    ) -> None:
+        weight = gain - score.miss(self.parameters.detection_probability)
+        self._selection.observe(gated.track, weight, density, gated.determinant, taken)
 
     def _choose(
         self,
@@ -174,7 +230,9 @@ class Tracker:
                 GateGraph(
                     gated.track[likely],
                     gated.plot[likely],
-                    weight[likely] + _CONFIRMED_FIRST * confirmed[likely],
+                    weight[likely],
+                    gated.distance_squared[likely],
+                    confirmed[likely],
                 )
             )
         ]
@@ -186,7 +244,7 @@ class Tracker:
         urgent[gated.track[gated.plot < ripe]] = True
         return edges[urgent[gated.track[edges]]]
 
-    def _open(self, plots: Plots, out: list[Rows]) -> None:
+    def _open(self, plots: Plots, strange: FloatArray | None, out: list[Rows]) -> None:
         parameters, gap = self.parameters, self._tracks.longest_gap
         period = self._tracks.period
         self._starts.forget(plots.time[0] - (gap + 0.5) * period)
@@ -199,6 +257,8 @@ class Tracker:
             if len(pairs.start):
                 second = plots[pairs.plot]
                 density = self._clutter.per_area(second.range)
+                if strange is not None:
+                    density *= strange[pairs.plot]
                 scores = score.second_plot(
                     parameters.detection_probability, pairs.area, density, pairs.gap - 1
                 )
@@ -232,6 +292,8 @@ class Tracker:
                 self.parameters.detection_probability,
                 found / passed,
             )
+        if (shares := self._selection.shares) is not None:
+            self.health.watch("plots of confirmed tracks that are their own", *shares)
         if self._rotation.known:
             hint = self.parameters.scan_period or self._rotation.period
             self.health.watch("scan period, s", hint, self._rotation.period)

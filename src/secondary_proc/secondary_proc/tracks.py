@@ -11,8 +11,10 @@ import numpy.typing as npt
 from radar_common.health import Health
 from radar_common.tables import TRACK
 from secondary_proc import track_table
+from secondary_proc.association.soft import Contest
 from secondary_proc.gates import Gated, gate
 from secondary_proc.initiation import INITIATIONS
+from secondary_proc.initiation.interface import HitGain
 from secondary_proc.motion import FloatArray, noise_density, predict_state
 from secondary_proc.opening import first_state
 from secondary_proc.passages import ENDED, TENTATIVE, judge, take_misses, take_plots
@@ -86,6 +88,11 @@ class Tracks:
         """Turns of the antenna that may lie between the first two plots of a track."""
         return self._initiation.longest_gap
 
+    @property
+    def hit_gain(self) -> HitGain | None:
+        """What any plot in a gate adds to the score, None where its place in the gate counts."""
+        return self._initiation.hit_gain
+
     def is_confirmed(self, tracks: IndexArray) -> npt.NDArray[np.bool_]:
         """Tell which tracks have been confirmed, coasting or not.
 
@@ -120,11 +127,19 @@ class Tracks:
             sigmas=self._parameters.gate_sigmas,
             noise_density=self._manoeuvre,
             shortest=shortest,
+            narrow=self._quiet if self._parameters.gate_shape == "three_sizes" else None,
         )
         self._health.drop("tracks beyond the limit of neighbours", gated.skipped)
         return gated
 
-    def update(self, tracks: IndexArray, plots: Plots, gain: FloatArray, threshold: float) -> Rows:
+    def update(
+        self,
+        tracks: IndexArray,
+        plots: Plots,
+        gain: FloatArray,
+        threshold: float,
+        contest: Contest | None = None,
+    ) -> Rows:
         """Give tracks their plots.
 
         Args:
@@ -132,12 +147,17 @@ class Tracks:
             plots: their plots, n of them.
             gain: of the score, shape (n,).
             threshold: score of confirmation.
+            contest: other plots that may be theirs, None where each takes its one plot for sure.
 
         Returns:
             Rows of these tracks.
         """
         columns = self._store.take(tracks)
+        if contest is not None:
+            plots = contest.soften(columns, plots, self._quiet)
         take_plots(columns, plots, gain, self._smoother)
+        if contest is not None:
+            contest.widen(columns)
         self._health.count("plots in tracks", len(tracks))
         rows = self._after_plot(columns, threshold)
         self._store.put(tracks, columns)

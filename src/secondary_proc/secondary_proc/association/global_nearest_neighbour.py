@@ -37,8 +37,7 @@ def global_nearest_neighbour(graph: GateGraph) -> IndexArray:
         _assign(
             graph.track[contested],
             graph.plot[contested],
-            graph.gain[contested]
-            + _FIRST * (graph.first if len(graph.first) == 1 else graph.first[contested]),
+            graph.gain[contested] + _FIRST * graph.first[contested],
         )
     ]
     return np.sort(np.concatenate([np.flatnonzero(alone), chosen]))

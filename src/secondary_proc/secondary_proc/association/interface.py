@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -28,8 +28,8 @@ class GateGraph:
     track: IndexArray
     plot: IndexArray
     gain: FloatArray
-    distance_squared: FloatArray = field(default_factory=lambda: np.zeros(0))
-    first: npt.NDArray[np.bool_] = field(default_factory=lambda: np.zeros(1, bool))
+    distance_squared: FloatArray
+    first: npt.NDArray[np.bool_]
 
 
 class Association(Protocol):

@@ -74,20 +74,20 @@ def mix(
     )
 
 
-def scattered(covariance: FloatArray, mixture: Mixture) -> FloatArray:
-    """Add to a state's covariance that the innovations disagree.
+def scatter_of_state(covariance: FloatArray, mixture: Mixture) -> FloatArray:
+    """What the disagreement of the innovations adds to a state's covariance.
 
     Args:
         covariance: of (x, y, vx, vy) after a Kalman filter took the mixture for a plot, shape (k, 4, 4).
         mixture: what it took.
 
     Returns:
-        P + K S K' with the gain K that a plot surely the track's own would have had and the scatter S, shape (k, 4, 4).
+        K S K' with the gain K that a plot surely the track's own would have had and the scatter S, shape (k, 4, 4).
     """
     inverse, _ = inverse_2x2(mixture.covariance)
     # A Kalman gain is P H' R^-1 with the covariance after the update.
     gain = covariance[:, :, :2] @ inverse / mixture.share[:, None, None]
-    return covariance + gain @ mixture.scatter @ gain.transpose(0, 2, 1)
+    return gain @ mixture.scatter @ gain.transpose(0, 2, 1)
 
 
 def _square(vector: FloatArray) -> FloatArray:
