@@ -10,11 +10,12 @@ from radar_sim.scenario import ScenarioError, load_scenario, parse_scenario, sce
 from radar_sim.simulator import Simulator
 
 RADAR = "radar: {cells: 64}\n"
+BEARINGS = ["countermeasures", "detkov", "direction_finder", "ship"]
 STUDIES = ["interference", "jamming", "land", "noise", "point_clutter", "rain", "sea"]
 
 
 def test_the_scenarios_of_the_package_are_listed():
-    assert scenario_names() == sorted(["airport", "coast", "tiny", *STUDIES])
+    assert scenario_names() == sorted(["airport", "coast", "tiny", *STUDIES, *BEARINGS])
 
 
 @pytest.mark.parametrize("name", ["airport", "coast", "tiny"])
@@ -55,6 +56,40 @@ def test_a_scenario_is_read_from_a_path(tmp_path):
 @pytest.mark.parametrize(
     ("text", "key", "reason"),
     [
+        ("direction_finder: {period: 0.0}", "direction_finder: period", "must be in"),
+        ("direction_finder: {spread: 2.0}", "direction_finder: spread 2", "longer than period"),
+        ("direction_finder: {azimuth_std_deg: 0.0}", "direction_finder", "must not both be 0"),
+        ("direction_finder: {legs: [{}], cycles: 0}", "direction_finder: cycles", "must be in"),
+        ("emitters: [{}]", "", "need a direction_finder or channels.active"),
+        ("channels: {both: {}}", "channels: unknown key both", ""),
+        ("channels: {active: 3}", "channels.active", "keys and values"),
+        ("channels: {active: {intervals: 3}}", "channels.active.intervals", "list"),
+        (
+            "channels: {active: {intervals: [{begins: 9.0, ends: 8.0}]}}",
+            "channels.active.intervals[0]: ends 8",
+            "not after begins",
+        ),
+        (
+            "channels: {active: {}, passive: {silence: loud}}",
+            "channels.passive: silence",
+            "nothing, noise",
+        ),
+        (
+            "{direction_finder: {}, emitters: [{target: 1}]}",
+            "emitters[0]",
+            "no target 1 among 0",
+        ),
+        (
+            "{direction_finder: {}, targets: [{}], emitters: [{target: 1, legs: [{}]}]}",
+            "emitters[0]",
+            "those of its target",
+        ),
+        (
+            "{direction_finder: {}, emitters: [{off_time: 3.0}]}",
+            "emitters[0]: off_time 3",
+            "needs an on_time",
+        ),
+        ("{channels: {active: {}}, bearing_processes: 1}", "bearing_processes", "list"),
         ("", "", "top level"),
         ("- 1", "", "top level"),
         ("radar: [", "", "expected"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from radar_common.parameters import ParameterError, Parameters, parameter
@@ -61,8 +61,8 @@ class LegSection(Parameters):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MovingSection(Parameters):
-    """Where something begins and how long it is there; after its legs it moves straight on."""
+class PlacedSection(Parameters):
+    """Where something begins; after its legs it moves straight on."""
 
     x: float = parameter(
         0.0, "east of the map's origin when it appears", unit="m", low=-1e6, high=1e6
@@ -72,12 +72,6 @@ class MovingSection(Parameters):
     course_deg: float = parameter(
         0.0, "course when it appears, clockwise from north", unit="deg", low=-360.0, high=360.0
     )
-    appears: float = parameter(
-        0.0, "time after the start at which it takes off", unit="s", low=0.0, high=1e6
-    )
-    lifetime: float = parameter(
-        0.0, "time from appearing to disappearing; 0 stays for ever", unit="s", low=0.0, high=1e6
-    )
 
     def path(self, legs: Sequence[LegSection]) -> Path:
         """Put the path together with its legs.
@@ -86,7 +80,7 @@ class MovingSection(Parameters):
             legs: one after the other.
 
         Returns:
-            The path.
+            The path, there for ever.
 
         Raises:
             ParameterError: its speed would become negative on the way, or it turns about itself at rest.
@@ -110,13 +104,38 @@ class MovingSection(Parameters):
             speed=self.speed,
             course=math.radians(self.course_deg),
             legs=tuple(leg.leg() for leg in legs),
-            appears=self.appears,
-            disappears=self.appears + self.lifetime if self.lifetime else math.inf,
         )
 
 
+@dataclass(frozen=True, kw_only=True)
+class MovingSection(PlacedSection):
+    """The same with the time for which it is there."""
+
+    appears: float = parameter(
+        0.0, "time after the start at which it takes off", unit="s", low=0.0, high=1e6
+    )
+    lifetime: float = parameter(
+        0.0, "time from appearing to disappearing; 0 stays for ever", unit="s", low=0.0, high=1e6
+    )
+
+    def path(self, legs: Sequence[LegSection]) -> Path:
+        """Put the path together; see `PlacedSection.path`.
+
+        Args:
+            legs: one after the other.
+
+        Returns:
+            The path.
+
+        Raises:
+            ParameterError: its speed would become negative on the way, or it turns about itself at rest.
+        """
+        ends = self.appears + self.lifetime if self.lifetime else math.inf
+        return replace(super().path(legs), appears=self.appears, disappears=ends)
+
+
 def read_path(
-    section: MovingSection,
+    section: PlacedSection,
     legs: Sequence[LegSection],
     motion: MotionModel | None,
     where: str,

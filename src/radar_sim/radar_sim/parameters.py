@@ -59,6 +59,14 @@ class SimulatorParameters(Parameters):
         high=1000,
         read_only=True,
     )
+    begin_at: int = parameter(
+        0,
+        "clock at which simulated time is zero, alike for nodes that share targets; 0 begins at once",
+        unit="s",
+        low=0,
+        high=2**31 - 1,
+        read_only=True,
+    )
     start_time: int = parameter(
         1_700_000_000,
         "stamp of the first pulse in a bag written with --bag, since the epoch; a live node takes its clock",

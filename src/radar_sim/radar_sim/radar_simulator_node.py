@@ -3,27 +3,28 @@
 
 from __future__ import annotations
 
-import argparse
-import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import rclpy
 from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
-from rclpy.utilities import remove_ros_args
 from tf2_msgs.msg import TFMessage
 
 from radar_common.health import Health
-from radar_common.parameters import ParameterError
 from radar_common.ros import qos
 from radar_common.ros.diagnostics import Diagnostics
 from radar_common.ros.messages import TablePublisher
 from radar_common.ros.parameters import NodeParameters
-from radar_common.ros.run import EXIT_BAD_PARAMETERS, run
-from radar_common.tables import RADAR_FRAME, SITE_FRAME, SWEEPS_TOPIC, TRUTH_TOPIC
+from radar_common.tables import (
+    NANOSECONDS,
+    RADAR_FRAME,
+    SITE_FRAME,
+    SWEEPS_TOPIC,
+    TRUTH_TOPIC,
+)
 from radar_sim.parameters import SimulatorParameters
-from radar_sim.recording import RecordingError, record
+from radar_sim.recording import record
+from radar_sim.ros.command import run_or_record
 from radar_sim.simulator import Sector, Simulator
 
 NODE_NAME = "radar_simulator"
@@ -94,14 +95,15 @@ class RadarSimulatorNode(Node):
 
     def _start(self) -> bool:
         now = self.get_clock().now().nanoseconds
+        begin_at = self._settings.begin_at * NANOSECONDS
         # Simulated time stands at zero until the first message on /clock.
         if (
-            now == 0
+            now <= begin_at
             or self._sweeps.subscriptions < self._settings.wait_for_subscribers
             or self._truth.subscriptions < self._settings.wait_for_truth_subscribers
         ):
             return False
-        self._simulator.start = now
+        self._simulator.start = begin_at or now
         self._upcoming = next(self._simulator)
         radar = self._simulator.radar
         self.get_logger().info(
@@ -148,28 +150,11 @@ def main(args: Sequence[str] | None = None) -> int:
     Returns:
         Exit code: 0 after all scans or an interrupt, 2 if it cannot start.
     """
-    given = sys.argv[1:] if args is None else list(args)
-    parser = argparse.ArgumentParser(
-        prog=NODE_NAME,
+    return run_or_record(
+        RadarSimulatorNode,
+        SimulatorParameters,
+        record,
+        name=NODE_NAME,
         description="Simulated radar. Parameters follow --ros-args: -p scenario:=airport -p seed:=1",
+        args=args,
     )
-    parser.add_argument(
-        "--bag", help="write sweeps and truth into this new bag instead of publishing"
-    )
-    parser.add_argument("--storage", choices=("mcap", "sqlite3"), default="mcap", help="of the bag")
-    # rcl takes no empty list; the program's name makes sure of it.
-    options = parser.parse_args(remove_ros_args(args=[NODE_NAME, *given])[1:])
-    if options.bag is None:
-        return run(RadarSimulatorNode, args)
-    rclpy.init(args=given)
-    try:
-        # Only a node knows how --ros-args become parameters.
-        node = rclpy.create_node(NODE_NAME, enable_rosout=False, start_parameter_services=False)
-        parameters = NodeParameters(node, SimulatorParameters).values
-        record(parameters, options.bag, storage=options.storage, report=node.get_logger().info)
-    except (ParameterError, RecordingError) as error:
-        print(f"cannot start: {error}", file=sys.stderr)
-        return EXIT_BAD_PARAMETERS
-    finally:
-        rclpy.try_shutdown()
-    return 0

@@ -13,6 +13,7 @@ import numpy as np
 import yaml
 
 from radar_common.parameters import ParameterError
+from radar_sim.bearings.scene import BEARING_KEYS, BearingScene, read_scene
 from radar_sim.clutter.sections import CLUTTER
 from radar_sim.disturbance import Disturbance, DisturbanceSection
 from radar_sim.interference.sections import INTERFERENCE
@@ -25,7 +26,7 @@ _DISTURBANCES: dict[str, dict[str, type[DisturbanceSection]]] = {
     "clutter": CLUTTER,
     "interference": INTERFERENCE,
 }
-_KEYS = {"title", "radar", "targets", "traffic", *_DISTURBANCES}
+_KEYS = {"title", "radar", "targets", "traffic", *_DISTURBANCES, *BEARING_KEYS}
 
 
 class ScenarioError(ParameterError):
@@ -37,10 +38,12 @@ class Scenario:
     """What is simulated.
 
     Attributes:
-        title: one line for people.
         radar: the radar.
         targets: those given one by one; they have the first ids.
         traffic: groups drawn from the seed.
+        disturbances: clutter and interference.
+        title: one line for people.
+        bearings: what a bearing simulator makes; None where the scenario says nothing of it.
     """
 
     radar: Radar
@@ -48,6 +51,7 @@ class Scenario:
     traffic: tuple[TrafficGroup, ...] = ()
     disturbances: tuple[DisturbanceSection, ...] = ()
     title: str = ""
+    bearings: BearingScene | None = None
 
     def draw(self, rng: np.random.Generator) -> Targets:
         """Put together all targets, the traffic drawn at random.
@@ -153,6 +157,9 @@ def parse_scenario(text: str, *, source: str = "text") -> Scenario:
             traffic=tuple(traffic),
             disturbances=tuple(disturbances),
             title=str(content.get("title", "")),
+            bearings=read_scene(
+                content, len(targets) + sum(group.section.number for group in traffic)
+            ),
         )
     except ParameterError as error:
         raise ScenarioError(f"scenario {source}: {error}") from error

@@ -92,7 +92,14 @@ def read_target(entry: Any, where: str) -> Target:
 
 
 class Targets:
-    """All targets of a simulation as arrays; the index of a target plus one is its id."""
+    """All targets of a simulation as arrays; the index of a target plus one is its id.
+
+    Attributes:
+        paths: of each.
+        fleet: the motion of all.
+        snr_db: at the reference range.
+        fluctuation: names of models.
+    """
 
     def __init__(self, targets: Sequence[Target]) -> None:
         """Collect them.
@@ -100,7 +107,8 @@ class Targets:
         Args:
             targets: in order of their ids.
         """
-        self.fleet = Fleet([target.path for target in targets])
+        self.paths = tuple(target.path for target in targets)
+        self.fleet = Fleet(self.paths)
         self.snr_db: npt.NDArray[np.float64] = np.array([t.snr_db for t in targets], dtype=float)
         self.fluctuation: npt.NDArray[np.str_] = np.array(
             [target.fluctuation for target in targets], dtype=str
