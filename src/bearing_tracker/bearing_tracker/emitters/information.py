@@ -39,11 +39,18 @@ def bearing_information(geometry: Geometry, state: FloatArray) -> FloatArray:
     age = np.where(taken, geometry.now[:, np.newaxis] - geometry.time[:, :used], 0.0)
     then = state[:, np.newaxis, :2] - age[..., np.newaxis] * state[:, np.newaxis, 2:]
     seen = sight(then - observer)
-    gradient = np.concatenate([seen.gradient, -age[..., np.newaxis] * seen.gradient], axis=-1)
     unrest = np.where(taken, geometry.unrest_now[:, np.newaxis] - geometry.unrest[:, :used], 0.0)
     drift = unrest * age**2 / 3.0 / seen.range**2
     weight = weight / (1.0 + weight * drift)
-    return np.swapaxes(gradient * weight[..., np.newaxis], -1, -2) @ gradient
+    east, north = np.moveaxis(seen.gradient, -1, 0)
+    squares = np.stack([east * east, east * north, north * north], axis=1)
+    by_age = np.stack([weight, -age * weight, age**2 * weight], axis=-1)
+    # Every block of the sum of h' h / variance, h = (gradient, -age gradient), is one matrix by a power of the age.
+    blocks = (squares @ by_age)[:, [[0, 1], [1, 2]]]
+    information = np.empty((len(state), 4, 4))
+    information[:, :2, :2], information[:, 2:, 2:] = blocks[..., 0], blocks[..., 2]
+    information[:, :2, 2:] = information[:, 2:, :2] = blocks[..., 1]
+    return information
 
 
 def range_information(

@@ -27,7 +27,7 @@ def moments(
     """
     centre = (weight[..., np.newaxis, :] @ mean)[..., 0, :]
     apart = mean - centre[..., np.newaxis, :]
-    flat = covariance.reshape(*weight.shape, -1)
+    flat = covariance.reshape(*weight.shape, mean.shape[-1] ** 2)
     within = (weight[..., np.newaxis, :] @ flat).reshape(*centre.shape, centre.shape[-1])
     between = np.swapaxes(weight[..., np.newaxis] * apart, -1, -2) @ apart
     return centre, within + between

@@ -39,7 +39,7 @@ def read_estimate(belief: Belief, settings: FilterSettings) -> Estimate:
     Returns:
         Estimates of n emitters.
     """
-    components = (len(belief), belief.weight[0].size if len(belief) else 1)
+    components = (len(belief), belief.weight.shape[1] * belief.weight.shape[2])
     mean, covariance = belief.mean[..., :4], belief.covariance[..., :4, :4]
     state, spread = mixture.moments(
         belief.weight.reshape(components),
@@ -87,7 +87,7 @@ def _angle_moments(
     weight: FloatArray, azimuth: FloatArray, variance: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Mean and deviation of mixtures of angles, (n, B, M) each, about the likeliest component."""
-    flat = weight.reshape(len(weight), -1)
+    flat = weight.reshape(len(weight), weight.shape[1] * weight.shape[2])
     best = flat.argmax(axis=-1)[:, np.newaxis]
     reference = np.take_along_axis(azimuth.reshape(flat.shape), best, axis=-1)
     apart = wrap_pi(azimuth.reshape(flat.shape) - reference)
