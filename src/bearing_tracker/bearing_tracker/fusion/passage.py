@@ -53,7 +53,9 @@ def begin(
     angles = wrapped(mean.T, channels.angles)[:, None]
     square = np.broadcast_to(covariance, (targets, components, components)).T[:, :, None]
     return Belief(
-        np.repeat(angles, size, axis=1).T, np.repeat(square, size, axis=2).T, log_probability.T
+        np.broadcast_to(angles, (components, size, targets)).T,
+        np.broadcast_to(square, (components, components, size, targets)).T,
+        log_probability.T,
     )
 
 

@@ -67,13 +67,15 @@ def off_tangent(channels: ChannelPair, state: Hypotheses) -> Belief:
 
     Args:
         channels: that tell which components are angles.
-        state: on the tangent.
+        state: on the tangent; what all hypotheses share may stand once.
 
     Returns:
         The belief.
     """
+    mean = wrapped(state.mean + state.reference[:, None], channels.angles)
+    square, shape = state.covariance.shape[:2], state.log_probability.shape
     return Belief(
-        wrapped(state.mean + state.reference[:, None], channels.angles).T,
-        state.covariance.T,
+        np.broadcast_to(mean, (len(mean), *shape)).T,
+        np.broadcast_to(state.covariance, (*square, *shape)).T,
         (state.log_probability - log_sum(state.log_probability)).T,
     )

@@ -70,16 +70,12 @@ class ToldFilter(DcmpFilter):
         now = [self._state(*told) for told in zip((active, passive), before, strict=True)]
         for channel, reading, known in zip(channels, (active, passive), now, strict=True):
             state = take_in(state, seen_in(channel, known[None]), reading)
-        size = self.channels.hypotheses
-        certainty = np.full((size, len(belief)), -np.inf)
+        certainty = np.full((self.channels.hypotheses, len(belief)), -np.inf)
         certainty[now[0] * passives + now[1], rows] = 0.0
-        whole = Hypotheses(
-            state.reference,
-            np.repeat(state.mean, size, axis=1),
-            np.repeat(state.covariance, size, axis=2),
-            certainty,
+        return off_tangent(
+            self.channels,
+            Hypotheses(state.reference, state.mean, state.covariance, certainty),
         )
-        return off_tangent(self.channels, whole)
 
     def _state(self, reading: Reading | None, previous: IntArray) -> IntArray:
         if not self._truth:
