@@ -44,7 +44,7 @@ def _airport(scans: int) -> PlotScene:
         share=0.4,
         scans=scans,
         errors=PlotErrors(range_std=20.0, azimuth_std=0.002, outliers=0.01),
-        false_plots=40.0,
+        false_plots=25.0,
         nearest=5e3,
         range_resolution=1.5 * _RADAR.range_step,
         azimuth_resolution=math.radians(_RADAR.beamwidth_deg),
@@ -60,7 +60,7 @@ def _coast(scans: int) -> PlotScene:
         scans=scans,
         errors=PlotErrors(range_std=10.0, azimuth_std=0.003),
         integration_gain_db=4.0,
-        false_plots=30.0,
+        false_plots=25.0,
         nearest=500.0,
         range_resolution=1.5 * radar.range_step,
         azimuth_resolution=math.radians(radar.beamwidth_deg),
@@ -102,11 +102,12 @@ def _parallel(scans: int) -> PlotScene:
 
 
 def _weave(scans: int) -> PlotScene:
-    # Half circles to either side at seven times gravity, after a quiet beginning.
+    # Half circles to either side at seven times gravity, after a quiet beginning; a radar made for such targets.
+    radar = Radar(scan_period=2.0, pulse_rate=2048.0, cells=512)
     speed = 250.0
     rate = 7.0 * _GRAVITY / speed
     half = math.pi / rate
-    duration = scans * _RADAR.scan_period
+    duration = scans * radar.scan_period
     weave = [Leg(0.25 * duration), Leg(0.5 * half, rate)]
     sign = -1.0
     while sum(leg.duration for leg in weave) < duration:
@@ -121,23 +122,23 @@ def _weave(scans: int) -> PlotScene:
             (20e3, -30e3, 5.5),
         )
     ]
-    return _hard("weave: half circles at 7 g", targets, scans)
+    return _hard("weave: half circles at 7 g, a turn in 2 s", targets, scans, radar=radar)
 
 
 def _clutter(scans: int) -> PlotScene:
-    # Six aircraft cross two patches that hold most of the false plots.
+    # Aircraft cross two patches that hold most of the false plots.
     scene = _hard("clutter: through patches of dense false plots", _star(8), scans)
     patches = tuple(
         ClutterPatch(
-            range_min=15e3,
-            range_max=30e3,
+            range_min=20e3,
+            range_max=28e3,
             azimuth_min=math.radians(left),
-            azimuth_max=math.radians(left + 60.0),
-            per_scan=60.0,
+            azimuth_max=math.radians(left + 30.0),
+            per_scan=20.0,
         )
         for left in (20.0, 200.0)
     )
-    return replace(scene, patches=patches, false_plots=20.0)
+    return replace(scene, patches=patches)
 
 
 def _half(scans: int) -> PlotScene:
@@ -156,13 +157,20 @@ PLOT_SCENES: dict[str, Callable[[int], PlotScene]] = {
 """Makers of scenes by name; each takes the number of scans."""
 
 
-def _hard(title: str, targets: list[Target], scans: int, *, resolved: bool = True) -> PlotScene:
+def _hard(
+    title: str,
+    targets: list[Target],
+    scans: int,
+    *,
+    resolved: bool = True,
+    radar: Radar = _RADAR,
+) -> PlotScene:
     return PlotScene(
         title=title,
-        scenario=Scenario(radar=_RADAR, targets=tuple(targets), title=title),
+        scenario=Scenario(radar=radar, targets=tuple(targets), title=title),
         scans=scans,
         detection=0.9,
-        false_plots=40.0,
+        false_plots=25.0,
         nearest=2e3,
         range_resolution=0.0 if resolved else 1.5 * _RADAR.range_step,
         azimuth_resolution=0.0 if resolved else math.radians(_RADAR.beamwidth_deg),
