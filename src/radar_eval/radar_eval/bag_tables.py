@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -99,9 +100,23 @@ def load_tables(
             tables[topic].append(table)
     for topic, table in read_tables(path, wanted, health):
         tables[topic].append(table)
-    messages_of_plots = tables[PLOTS_TOPIC]
-    if not messages_of_plots:
+    if not tables[PLOTS_TOPIC]:
         raise ScoreError(f"bag {path}: no readable message on /{PLOTS_TOPIC}")
+    return lay_out(tables, health)
+
+
+def lay_out(messages: Mapping[str, Sequence[Table]], health: Health | None = None) -> BagTables:
+    """Make flat tables of messages, whether they came from a bag or were just computed.
+
+    Args:
+        messages: by their topics, some of plots among them; topics that are missing count as empty.
+        health: counts rows that cannot be used.
+
+    Returns:
+        The tables.
+    """
+    tables = {topic: list(messages.get(topic, ())) for topic in _LAYOUTS}
+    messages_of_plots = tables[PLOTS_TOPIC]
     origin = min(table.stamp for topic in tables for table in tables[topic])
     health = Health() if health is None else health
     plots, tracks, truth = (

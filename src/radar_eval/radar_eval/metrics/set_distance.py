@@ -22,12 +22,14 @@ class GospaOverTime:
     Attributes:
         time: seconds after the bag's origin, shape (scans,).
         distance: m, shape (scans,).
+        localisation: root of the sum of the squared distances of the pairs, m, shape (scans,).
         missed: number of targets without a track, shape (scans,).
         false: number of tracks without a target, shape (scans,).
     """
 
     time: FloatArray
     distance: FloatArray
+    localisation: FloatArray
     missed: FloatArray
     false: FloatArray
 
@@ -54,6 +56,7 @@ def gospa_over_time(evaluation: Evaluation) -> GospaOverTime:
     return GospaOverTime(
         time,
         np.array([part.distance for part in parts]),
+        np.sqrt([part.localisation for part in parts]),
         np.array([part.missed / alone for part in parts]),
         np.array([part.false / alone for part in parts]),
     )

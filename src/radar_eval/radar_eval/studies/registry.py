@@ -10,7 +10,9 @@ from typing import Any
 
 from radar_eval.errors import EvaluationError
 from radar_eval.studies.clutter import study_clutter
+from radar_eval.studies.emitter_location import study_emitter_location
 from radar_eval.studies.sensitivity import study_sensitivity
+from radar_eval.studies.tracking import study_tracking
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,9 +39,19 @@ STUDIES: dict[str, Study] = {
             study_clutter,
         ),
         Study(
+            "emitter_location",
+            "emitters located from bearings, every filter beside the Cramer-Rao bound",
+            study_emitter_location,
+        ),
+        Study(
             "sensitivity",
             "what every detector loses against the ideal integrator, predicted and measured",
             study_sensitivity,
+        ),
+        Study(
+            "tracking",
+            "the tracker with all its strategies and Stone Soup's on the same plots; NEES and NIS",
+            study_tracking,
         ),
     ]
 }
