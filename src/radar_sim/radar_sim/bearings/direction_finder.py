@@ -141,28 +141,38 @@ class DirectionFinder:
     def _state(self, time: FloatArray) -> State:
         return self._fleet.state(np.zeros(time.shape, dtype=np.intp), time)
 
-    def odometry(self, time: float, start: int) -> PlatformState:
+    def odometry(self, first: int, count: int, start: int) -> list[tuple[float, PlatformState]]:
         """Tell where the platform is.
 
         Args:
-            time: s after the start.
+            first: number of the first message.
+            count: how many.
             start: stamp of the start, nanoseconds.
 
         Returns:
-            Its state; its nose points where it goes.
+            Time in s after the start and state of each; the nose points where the platform goes.
         """
-        times = time + _TURN_INTERVAL * np.array([-0.5, 0.0, 0.5])
-        state = self._state(times)
+        section = self.section
+        number = np.arange(first, first + count)
+        time: FloatArray = np.multiply(section.odometry_period, number, dtype=float)
+        state = self._state(time[:, None] + _TURN_INTERVAL * np.array([-0.5, 0.0, 0.5]))
         moving = np.hypot(state.vx, state.vy) > 0.0
         courses = np.where(moving, np.arctan2(state.vx, state.vy), self._path.course)
-        return PlatformState(
-            stamp=start + round(time * NANOSECONDS),
-            x=float(state.x[1]),
-            y=float(state.y[1]),
-            z=float(self.section.z),
-            course=float(wrap_two_pi(courses[1])),
-            vx=float(state.vx[1]),
-            vy=float(state.vy[1]),
-            # A sudden change of course has no rate.
-            turn_rate=float(min(wrap_pi(np.diff(courses)), key=abs) / (_TURN_INTERVAL / 2.0)),
+        turns = wrap_pi(np.diff(courses, axis=1)) / (_TURN_INTERVAL / 2.0)
+        # The calmer side of the moment: a sudden change of course has no rate.
+        calm = np.argmin(np.abs(turns), axis=1)
+        turn_rate = np.take_along_axis(turns, calm[:, None], axis=1)[:, 0]
+        columns = (
+            state.x[:, 1],
+            state.y[:, 1],
+            np.full(count, section.z),
+            wrap_two_pi(courses[:, 1]),
+            state.vx[:, 1],
+            state.vy[:, 1],
+            np.zeros(count),
+            turn_rate,
         )
+        return [
+            (at, PlatformState(start + round(at * NANOSECONDS), *values))
+            for at, *values in zip(time.tolist(), *(c.tolist() for c in columns), strict=True)
+        ]

@@ -60,11 +60,15 @@ class BearingProcesses:
         self._shape[:, 0, 0] = deviation
         self._shape[:, 1, 0] = -self._alpha * deviation
         self._shape[:, 1, 1] = self._mu * deviation
-        first = [
-            shape @ stream.standard_normal(2)
-            for shape, stream in zip(self._shape, self._streams, strict=True)
-        ]
-        self._drawn = [state[None] for state in first]
+        first = self._normal(1)[0]
+        self._drawn = np.einsum("nij,nj->ni", self._shape, first)[None]
+        self._phi = transition(self._alpha, self._mu, self._step)
+        driving = np.sqrt(-np.expm1(-2.0 * self._alpha * self._step))
+        self._gamma = driving[:, None, None] * self._shape
+
+    def _normal(self, steps: int) -> FloatArray:
+        drawn = [stream.standard_normal((steps, 2)) for stream in self._streams]
+        return np.stack(drawn, axis=1) if drawn else np.empty((steps, 0, 2))
 
     def __len__(self) -> int:
         """Count them."""
@@ -82,10 +86,8 @@ class BearingProcesses:
         # A look at the very time of a step must not fall behind it by a rounding.
         step = np.floor(time / self._step + 1e-9).astype(np.intp)
         elapsed = np.maximum(time - step * self._step, 0.0)
-        states = np.empty((*time.shape, 2))
-        for number in range(len(self)):
-            self._extend(number, int(step[:, number].max(initial=0)))
-            states[:, number] = self._drawn[number][step[:, number]]
+        self._extend(int(step.max(initial=0)))
+        states = self._drawn[step, np.arange(len(self))]
         run_on = transition(
             np.broadcast_to(self._alpha, time.shape),
             np.broadcast_to(self._mu, time.shape),
@@ -94,17 +96,13 @@ class BearingProcesses:
         states = np.einsum("...ij,...j->...i", run_on, states)
         return self.mean + states[..., 0], states[..., 1]
 
-    def _extend(self, number: int, step: int) -> None:
-        drawn = self._drawn[number]
-        if step < len(drawn):
+    def _extend(self, step: int) -> None:
+        missing = step + 1 - len(self._drawn)
+        if missing <= 0 or not len(self):
             return
-        alpha, interval = self._alpha[number], self._step[number]
-        phi = transition(alpha, self._mu[number], interval)
-        gamma = np.sqrt(-np.expm1(-2.0 * alpha * interval)) * self._shape[number]
-        more = _CHUNK * (1 + (step - len(drawn)) // _CHUNK)
-        driving = self._streams[number].standard_normal((more, 2)) @ gamma.T
-        state = drawn[-1]
-        for row in driving:
-            state = phi @ state + row
+        more = np.einsum("nij,knj->kni", self._gamma, self._normal(_CHUNK * -(-missing // _CHUNK)))
+        state = self._drawn[-1]
+        for row in more:
+            state = np.einsum("nij,nj->ni", self._phi, state) + row
             row[:] = state
-        self._drawn[number] = np.concatenate([drawn, driving])
+        self._drawn = np.concatenate([self._drawn, more])

@@ -168,11 +168,11 @@ class BearingSimulator:
     def _odometry(self) -> Iterator[Message]:
         if self._finder is None:
             return
-        for number in itertools.count():
-            time = number * self._finder.section.odometry_period
-            if time > self._duration:
-                return
-            yield Message(time, PLATFORM_TOPIC, self._finder.odometry(time, self.start))
+        for first in itertools.count(0, _BLOCK):
+            for time, state in self._finder.odometry(first, _BLOCK, self.start):
+                if time > self._duration:
+                    return
+                yield Message(time, PLATFORM_TOPIC, state)
 
     def _bearings(self) -> Iterator[Message]:
         if self._finder is not None:
