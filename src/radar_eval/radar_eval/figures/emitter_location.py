@@ -24,7 +24,7 @@ _BEARINGS_SHOWN = 8
 def draw_emitter_location(
     scenes: Sequence[LocationScene], outcomes: Sequence[LocationOutcome]
 ) -> Figure:
-    """Draw a row of two panels for each scene: its geometry, and errors over time.
+    """Draw a row of three panels for each scene: its geometry, the estimates at the end, and errors over time.
 
     Args:
         scenes: compared on.
@@ -34,19 +34,20 @@ def draw_emitter_location(
         The figure.
     """
     with style():
-        figure = Figure(figsize=(10.4, 4.1 * len(scenes)), layout="constrained")
+        figure = Figure(figsize=(11.6, 3.7 * len(scenes)), layout="constrained")
         panels = figure.subplots(
-            len(scenes), 2, squeeze=False, gridspec_kw={"width_ratios": [1.0, 1.35]}
+            len(scenes), 3, squeeze=False, gridspec_kw={"width_ratios": [1.0, 1.0, 1.7]}
         )
-        for (geometry, errors), scene in zip(panels, scenes, strict=True):
+        for (geometry, end, errors), scene in zip(panels, scenes, strict=True):
             shown = [outcome for outcome in outcomes if outcome.scene == scene.name]
             default = next(outcome for outcome in shown if outcome.filter == DEFAULT_FILTER)
-            _draw_geometry(geometry, scene, default)
+            _draw_geometry(geometry, scene)
+            _draw_end(end, scene, default)
             _draw_errors(errors, scene, shown, default)
     return figure
 
 
-def _draw_geometry(axes: Axes, scene: LocationScene, default: LocationOutcome) -> None:
+def _draw_geometry(axes: Axes, scene: LocationScene) -> None:
     observer, path = scene.observer / 1e3, scene.path[:, :2] / 1e3
     for look in np.linspace(0, len(path) - 1, _BEARINGS_SHOWN).astype(int):
         axes.plot(*np.stack([observer[look], path[look]]).T, color=FAINT, linewidth=0.5)
@@ -54,9 +55,7 @@ def _draw_geometry(axes: Axes, scene: LocationScene, default: LocationOutcome) -
     axes.plot(*observer[0], "o", color=INK, markersize=4)
     axes.plot(*path.T, color=LINES[1])
     axes.plot(*path[0], "o", color=LINES[1], markersize=4)
-    axes.plot(*(default.places / 1e3).T, ".", color=LINES[0], markersize=1.5, alpha=0.4, zorder=1)
     axes.plot(*path[-1], "s", color=LINES[1], markersize=4)
-    _draw_end(axes.inset_axes((0.6, 0.07, 0.39, 0.36)), scene, default)
     axes.annotate("observer", observer[0], (6, -10), textcoords="offset points", color=INK)
     axes.annotate("emitter", path[0], (6, 4), textcoords="offset points", color=LINES[1])
     axes.set_aspect("equal", adjustable="datalim")
@@ -85,12 +84,15 @@ def _draw_end(axes: Axes, scene: LocationScene, default: LocationOutcome) -> Non
         )
     )
     reach = 1.15 * float(np.quantile(np.abs(off), 0.995))
-    axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
-    axes.set_aspect("equal", adjustable="box")
-    axes.tick_params(labelsize=7.0, pad=1.5)
-    axes.xaxis.set_major_locator(MaxNLocator(3))
-    axes.yaxis.set_major_locator(MaxNLocator(3))
-    axes.set_title(f"at the end, km off; {_SIGMAS:g} sigma of the bound", fontsize=7.5, color=MUTED)
+    axes.set_ylim(-reach, reach)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.xaxis.set_major_locator(MaxNLocator(4))
+    axes.yaxis.set_major_locator(MaxNLocator(4))
+    axes.set(
+        title=f"Estimates at the end; {_SIGMAS:g} σ of the bound",
+        xlabel="off to the east, km",
+        ylabel="to the north, km",
+    )
 
 
 def _draw_errors(
@@ -116,14 +118,5 @@ def _draw_errors(
     axes.yaxis.set_major_formatter(FuncFormatter(lambda metres, _: f"{metres:,.0f}"))
     axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set(title=f"RMS position error of {default.runs} runs, m", xlabel="minutes")
-    axes.text(
-        0.012,
-        0.02,
-        "range unknown",
-        transform=axes.transAxes,
-        color=MUTED,
-        fontsize=8.0,
-    )
-    axes.legend(
-        title="error at the end over the bound", loc="lower left", bbox_to_anchor=(1.0, 0.3)
-    )
+    axes.text(0.012, 0.02, "range unknown", transform=axes.transAxes, color=MUTED, fontsize=8.0)
+    axes.legend(title="at the end over the bound", loc="best", alignment="left")
