@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from bearing_tracker.fusion import FILTERS, Reading, join
 
 NAMES = list(FILTERS)
-quick = settings(max_examples=6, suppress_health_check=[HealthCheck.function_scoped_fixture])
+quick = settings(max_examples=4, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 def wrapped(angle):

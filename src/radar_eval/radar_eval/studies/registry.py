@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from radar_eval.errors import EvaluationError
+from radar_eval.studies.channel_fusion import study_channel_fusion
 from radar_eval.studies.clutter import study_clutter
 from radar_eval.studies.emitter_location import study_emitter_location
 from radar_eval.studies.sensitivity import study_sensitivity
@@ -33,6 +34,11 @@ class Study:
 STUDIES: dict[str, Study] = {
     study.name: study
     for study in [
+        Study(
+            "channel_fusion",
+            "a bearing from two channels that are jammed and silent for a while, moment by moment",
+            study_channel_fusion,
+        ),
         Study(
             "clutter",
             "false plots and detected targets in clutter, by normaliser and criterion control",

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+
+from radar_eval.published.detkov_trials import COLUMNS
+from radar_eval.studies.channel_fusion import PICTURE, measure_channel_fusion
+from radar_eval.studies.registry import STUDIES
+
+
+def test_the_study_draws_and_tells_the_errors(tmp_path):
+    told = measure_channel_fusion(tmp_path, runs=6)
+    picture = (tmp_path / PICTURE).read_bytes()
+    assert picture.startswith(b"\x89PNG")
+    assert len(picture) > 50_000
+    assert set(told["rms"]) == {"dcmp", "kalman", "oracle"}
+    for parts in told["rms"].values():
+        assert set(parts) == {"undisturbed", "active jammed", "passive silent"}
+        for errors in parts.values():
+            assert tuple(errors) == COLUMNS
+            assert all(math.isfinite(error) and error > 0.0 for error in errors.values())
+    jammed = {name: parts["active jammed"] for name, parts in told["rms"].items()}
+    assert jammed["dcmp"]["both channels"] < 0.5 * jammed["kalman"]["both channels"]
+    assert "channel_fusion" in STUDIES
