@@ -8,10 +8,12 @@ import pytest
 from scipy.optimize import minimize
 
 from secondary_proc.calculators.alpha_beta_gains import (
+    GAIN_RULES,
     growing_coefficients,
     manoeuvre_intensity,
     optimal_alpha,
     optimal_coefficients,
+    steady_coefficients,
 )
 from secondary_proc.smoothing import Measured
 from secondary_proc.smoothing.alpha_beta import AlphaBetaSmoother
@@ -100,6 +102,27 @@ def test_the_covariance_of_the_growing_memory_is_that_of_the_line(n):
 def test_optimum_has_the_values_of_the_book(intensity, alpha, beta):
     found = optimal_coefficients(intensity)
     np.testing.assert_allclose(found, (alpha, beta), atol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("intensity", "alpha", "beta"),
+    [(1e-4, 0.1772, 0.0386), (0.1, 0.4408, 0.4302), (2.0, 0.5, 1.0), (10.0, 0.4793, 1.4486)],
+)
+def test_optimum_of_the_prediction_has_the_values_of_the_book(intensity, alpha, beta):
+    np.testing.assert_allclose(
+        optimal_coefficients(intensity, "predicted"), (alpha, beta), atol=1e-3
+    )
+
+
+@pytest.mark.parametrize("rule", GAIN_RULES)
+def test_every_rule_bounds_the_memory_by_its_own_gains(rule):
+    acceleration, error = 3.0, 30.0
+    smoother = AlphaBetaSmoother(acceleration, 0.0, rule)
+    positions = np.zeros((40, 2))
+    positions[-1] = 100.0, 0.0
+    state, _ = smooth(smoother, positions, azimuth=0.3, error=error)
+    alpha, beta = steady_coefficients((acceleration * PERIOD**2 / error) ** 2, rule)
+    np.testing.assert_allclose(state, [100.0 * alpha, 0.0, 100.0 * beta / PERIOD, 0.0], atol=1e-9)
 
 
 def test_optimum_minimises_random_plus_dynamic_error():

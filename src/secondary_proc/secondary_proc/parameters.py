@@ -85,7 +85,7 @@ class TrackerParameters(SmoothingParameters):
     confirmed_misses: int = parameter(
         12, "scans in a row without a plot that end a confirmed track", low=1, high=50
     )
-    smoother: str = parameter("kalman", "filter of position and velocity", choices=tuple(SMOOTHERS))
+    smoother: str = parameter("imm", "filter of position and velocity", choices=tuple(SMOOTHERS))
     association: str = parameter(
         "global_nearest_neighbour",
         "how plots are given to tracks that compete for them",

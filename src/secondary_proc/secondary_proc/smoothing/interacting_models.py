@@ -16,7 +16,7 @@ from secondary_proc.motion import FloatArray, inverse_2x2, normalised_square
 from secondary_proc.smoothing.interface import Measured, Smoothed, joseph_update
 from secondary_proc.smoothing.motion_models import MotionModel
 
-_LEAST_WEIGHT = 1e-6
+_LEAST_WEIGHT = 1e-12
 _LEAST_SPEED = 20.0
 
 
