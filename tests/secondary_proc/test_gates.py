@@ -8,84 +8,78 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from secondary_proc import neighbours
+from secondary_proc import gates, neighbours
 from secondary_proc.gates import gate
 from secondary_proc.neighbours import neighbour_pairs
-from secondary_proc.opening import first_state
-from secondary_proc.plots import QUEUE_COLUMNS, Plots
-from secondary_proc.track_store import TrackStore
+from secondary_proc.opening import opened_tracks
+from secondary_proc.plots import POLAR_ROWS, Plots
+from secondary_proc.track_store import PREDICTED_ROWS, Columns
 
 SIGMAS = 3.5
 DENSITY = 30.0
 
 
 def plots_at(random, count, begin, end, spread):
-    rows = np.zeros((count, QUEUE_COLUMNS))
-    rows[:, 0] = np.sort(random.uniform(begin, end, count))
-    rows[:, 1] = random.uniform(40e3, 40e3 + spread, count)
-    rows[:, 2] = random.uniform(0.5, 0.5 + spread / 40e3, count)
-    rows[:, 3], rows[:, 4] = 20.0, 0.002
-    return Plots.from_queue(rows)
+    polar = np.zeros((POLAR_ROWS, count))
+    polar[0] = np.sort(random.uniform(begin, end, count))
+    polar[1] = random.uniform(40e3, 40e3 + spread, count)
+    polar[2] = random.uniform(0.5, 0.5 + spread / 40e3, count)
+    polar[3], polar[4] = 20.0, 0.002
+    return Plots.from_polar(polar)
 
 
-def store_of(random, count, spread):
-    store = TrackStore(np.dtype(float))
+def tracks_of(random, count, spread):
     first = plots_at(random, count, 0.0, 1.0, spread)
     second = plots_at(random, count, 4.0, 5.0, spread)
     # Flights of up to 300 m/s rather than pairs of anything.
     velocity = random.uniform(-200.0, 200.0, (count, 2))
     step = velocity * (second.time - first.time)[:, None]
-    second = Plots(
-        second.time, second.range, second.azimuth, first.position + step, second.covariance
-    )
-    columns = first_state(first, second, 0.3)
-    store.append(
-        columns | {"id": np.arange(count), "memory": 0.0, "rule": 0, "score": 0.0, "best": 0.0},
-        count,
-    )
-    return store
+    second = Plots.at(second.time, first.position + step, second.covariance)
+    return opened_tracks(first, second, 0.3, np.dtype(float))
 
 
-def by_brute_force(store, plots, shortest):
+def by_brute_force(tracks, plots, shortest):
     """One pair at a time, with matrices: Kuzmin 1967, (4.141)."""
     found = {}
-    for i in range(len(store)):
+    for i in range(len(tracks)):
         for j in range(len(plots)):
-            dt = plots.time[j] - store["time"][i]
+            dt = plots.time[j] - tracks.time[i]
             if dt < shortest:
                 continue
             matrix = np.eye(4)
             matrix[0, 2] = matrix[1, 3] = dt
-            covariance = (matrix @ store["covariance"][i] @ matrix.T)[:2, :2]
+            covariance = (matrix @ tracks.covariance[i] @ matrix.T)[:2, :2]
             covariance = covariance + np.eye(2) * DENSITY * dt**3 / 3 + plots.covariance[j]
-            difference = plots.position[j] - (matrix @ store["state"][i])[:2]
+            difference = plots.position[j] - (matrix @ tracks.state[i])[:2]
             distance = difference @ np.linalg.solve(covariance, difference)
             if distance <= SIGMAS**2:
                 found[i, j] = distance, np.linalg.det(covariance)
     return found
 
 
-@pytest.mark.parametrize("dense", [0, 10**9], ids=["by cells", "by matrix"])
+@pytest.mark.parametrize(
+    ("dense", "few"), [(0, 0), (10**9, 0), (0, 10**9)], ids=["by cells", "by matrix", "all pairs"]
+)
 @given(
     seed=st.integers(0, 2**32 - 1),
     tracks=st.integers(1, 25),
     plots=st.integers(1, 25),
     spread=st.sampled_from([300.0, 3e3, 60e3]),
 )
-def test_gates_hold_what_brute_force_finds(dense, seed, tracks, plots, spread):
+def test_gates_hold_what_brute_force_finds(dense, few, seed, tracks, plots, spread):
     random = np.random.default_rng(seed)
-    store, new = store_of(random, tracks, spread), plots_at(random, plots, 7.5, 8.5, spread)
+    old, new = tracks_of(random, tracks, spread), plots_at(random, plots, 7.5, 8.5, spread)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(neighbours, "_DENSE", dense)
+        patch.setattr(gates, "_FEW_PAIRS", few)
         gated = gate(
-            store,
-            np.arange(tracks),
+            old.numbers[:PREDICTED_ROWS],
             new,
             sigmas=SIGMAS,
             noise_density=DENSITY,
             shortest=3.0,
         )
-    expected = by_brute_force(store, new, 3.0)
+    expected = by_brute_force(old, new, 3.0)
     found = {
         (int(i), int(j)): (d, s)
         for i, j, d, s in zip(
@@ -100,10 +94,8 @@ def test_gates_hold_what_brute_force_finds(dense, seed, tracks, plots, spread):
 def test_gate_of_no_track_is_empty():
     random = np.random.default_rng(0)
     plots = plots_at(random, 3, 0.0, 1.0, 1e3)
-    empty = TrackStore(np.dtype(float))
-    gated = gate(
-        empty, np.zeros(0, np.intp), plots, sigmas=SIGMAS, noise_density=DENSITY, shortest=3.0
-    )
+    empty = Columns.zeros(0, np.dtype(float)).numbers[:PREDICTED_ROWS]
+    gated = gate(empty, plots, sigmas=SIGMAS, noise_density=DENSITY, shortest=3.0)
     assert len(gated.track) == 0
 
 

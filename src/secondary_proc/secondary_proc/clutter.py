@@ -7,7 +7,7 @@ number per area falls as one over the range (Kuzmin 1967, 4.10).
 
 from __future__ import annotations
 
-from math import exp
+from math import exp, pi
 
 import numpy as np
 import numpy.typing as npt
@@ -56,7 +56,7 @@ class FalsePlotDensity:
     @property
     def per_scan(self) -> float:
         """Unclaimed plots of one scan over the whole coverage."""
-        return float(self._counts.sum() / self._scans)
+        return float(np.add.reduce(self._counts)) / self._scans
 
     def per_area(self, ranges: FloatArray) -> FloatArray:
         """Density to expect at a place.
@@ -67,9 +67,8 @@ class FalsePlotDensity:
         Returns:
             False plots per square metre and scan, positive, shape (n,).
         """
-        counts = np.maximum(self._counts[self._ring(ranges)], _LEAST_PER_RING * self._scans)
-        counts /= np.maximum(ranges, 1.0)
-        counts /= 2.0 * np.pi * RING * self._scans
+        counts = np.maximum(self._counts.take(self._ring(ranges)), _LEAST_PER_RING * self._scans)
+        counts /= ranges * (2.0 * pi * RING * self._scans)
         return counts
 
     def _ring(self, ranges: FloatArray) -> npt.NDArray[np.intp]:

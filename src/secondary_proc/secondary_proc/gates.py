@@ -11,31 +11,26 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from radar_common.tables import TrackStatus
 from secondary_proc.gating.three_sizes import narrowed
-from secondary_proc.motion import (
-    normalised_square,
-    predict_position_covariance,
-    trace,
-)
+from secondary_proc.motion import POSITION_TERMS
 from secondary_proc.neighbours import neighbour_pairs
-from secondary_proc.plots import Plots
-from secondary_proc.track_store import TrackStore
+from secondary_proc.plots import TIME, XX, YY, Plots, X, Y
+from secondary_proc.track_store import COVARIANCE, STATE, TIME_OF_STATE
 
 FloatArray = npt.NDArray[np.float64]
 IndexArray = npt.NDArray[np.intp]
 
 _MOST_NEIGHBOURS = 4_000_000
-_FEW_PAIRS = 256
-CONFIRMED = int(TrackStatus.CONFIRMED)
+_FEW_PAIRS = 1024
+_ISOTROPIC = np.array([1.0, 0.0, 0.0, 1.0]) / 3.0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Gated:
     """Plots in gates, one row a pair.
 
     Attributes:
-        track: index into the store, shape (n,).
+        track: index of the track, shape (n,).
         plot: index into the plots, shape (n,).
         distance_squared: normalised by the covariance of the predicted difference, shape (n,).
         determinant: of that covariance, m^4, shape (n,).
@@ -50,73 +45,138 @@ class Gated:
 
 
 def gate(
-    store: TrackStore,
-    tracks: IndexArray,
-    plots: Plots,
-    *,
-    sigmas: float,
-    noise_density: float,
-    shortest: float,
-    narrow: float | None = None,
+    tracks: FloatArray, plots: Plots, *, sigmas: float, noise_density: float, shortest: float
 ) -> Gated:
     """Find the plots in each track's gate, every plot at its own time.
 
     Args:
-        store: all tracks.
-        tracks: indices of those that the beam may find, shape (n,).
+        tracks: those that the beam may find: the first rows of `Columns.numbers`, up to the time, shape (rows, n).
         plots: of one slice of time, not empty, in order of time.
         sigmas: half axis of the gate in standard deviations.
         noise_density: power spectral density of the acceleration that the gate stays open for, m^2/s^3.
         shortest: seconds that must lie between two plots of a track.
-        narrow: noise density of quiet flight, for gates of which the smallest with a plot counts; None for one size.
 
     Returns:
-        Pairs of track and plot.
+        Pairs of track and plot; tracks are counted as they stand in `tracks`.
     """
-    if not len(tracks):
-        return Gated(tracks, tracks, np.zeros(0), np.zeros(0), 0)
-    row, plot, skipped = _near_pairs(store, tracks, plots, sigmas, noise_density)
-    track = tracks[row]
-    seconds = plots.time[plot] - store["time"][track]
-    apart = seconds >= shortest
-    if not apart.all():
-        track, plot, seconds = track[apart], plot[apart], seconds[apart]
-    state = store["state"][track]
-    difference = plots.position[plot] - state[:, :2] - state[:, 2:] * seconds[:, None]
-    expected = predict_position_covariance(store["covariance"][track], seconds, noise_density)
-    expected += plots.covariance[plot]
-    distance_squared, determinant = normalised_square(difference, expected)
-    inside = (distance_squared <= sigmas**2).nonzero()[0]
-    if narrow is not None:
-        track, plot, difference = track[inside], plot[inside], difference[inside]
-        distance_squared, determinant = distance_squared[inside], determinant[inside]
-        quiet = predict_position_covariance(store["covariance"][track], seconds[inside], narrow)
-        quiet += plots.covariance[plot]
-        straight = (store["status"][track] == CONFIRMED) & (store["misses"][track] == 0)
-        tried = narrowed(track, straight, difference, quiet, sigmas)
-        distance_squared[tried.narrow] = tried.distance_squared[tried.narrow]
-        determinant[tried.narrow] = tried.determinant[tried.narrow]
-        inside = tried.kept.nonzero()[0]
+    terms = POSITION_TERMS @ tracks[COVARIANCE]
+    if tracks.shape[1] * len(plots) <= _FEW_PAIRS:
+        # To look for neighbours would cost more than to try them all.
+        distance_squared, determinant, inside = _try(
+            tracks[:, :, None],
+            terms[:, :, None],
+            plots.values[:, None],
+            sigmas,
+            noise_density,
+            shortest,
+        )
+        track, plot = inside.nonzero()
+        return Gated(track, plot, distance_squared[inside], determinant[inside], 0)
+    row, column, skipped = _near_pairs(tracks, terms, plots, sigmas, noise_density)
+    distance_squared, determinant, inside = _try(
+        tracks.take(row, axis=1),
+        terms.take(row, axis=1),
+        plots.values.take(column, axis=1),
+        sigmas,
+        noise_density,
+        shortest,
+    )
+    kept = inside.nonzero()[0]
+    return Gated(row[kept], column[kept], distance_squared[kept], determinant[kept], skipped)
+
+
+def narrow_gates(
+    gated: Gated,
+    tracks: FloatArray,
+    straight: npt.NDArray[np.bool_],
+    plots: Plots,
+    *,
+    sigmas: float,
+    noise_density: float,
+) -> Gated:
+    """Let the smallest gate with a plot count.
+
+    Args:
+        gated: what the wide gates hold.
+        tracks: as `gate` took them, shape (rows, n).
+        straight: whether a track may have a narrow gate, shape (n,).
+        plots: as `gate` took them.
+        sigmas: half axis of the gates in standard deviations.
+        noise_density: power spectral density of the acceleration in quiet flight, m^2/s^3.
+
+    Returns:
+        Pairs that are left, those in narrow gates with the distance and the determinant of quiet flight.
+    """
+    pairs = tracks.take(gated.track, axis=1)
+    terms = POSITION_TERMS @ pairs[COVARIANCE]
+    _, shift, error = _difference(
+        pairs, terms, plots.values.take(gated.plot, axis=1), noise_density
+    )
+    tried = narrowed(gated.track, straight[gated.track], shift.T, error.T.reshape(-1, 2, 2), sigmas)
+    gated.distance_squared[tried.narrow] = tried.distance_squared[tried.narrow]
+    gated.determinant[tried.narrow] = tried.determinant[tried.narrow]
+    kept = tried.kept.nonzero()[0]
     return Gated(
-        track[inside], plot[inside], distance_squared[inside], determinant[inside], skipped
+        gated.track[kept],
+        gated.plot[kept],
+        gated.distance_squared[kept],
+        gated.determinant[kept],
+        gated.skipped,
     )
 
 
+def _try(
+    tracks: FloatArray,
+    terms: FloatArray,
+    plots: FloatArray,
+    sigmas: float,
+    noise_density: float,
+    shortest: float,
+) -> tuple[FloatArray, FloatArray, npt.NDArray[np.bool_]]:
+    seconds, shift, error = _difference(tracks, terms, plots, noise_density)
+    xx, xy, _, yy = error
+    determinant = xx * yy - xy * xy
+    # The adjugate times the shift, both components at once: (x yy - y xy, y xx - x xy).
+    turned = shift * error[::-3] - shift[::-1] * xy
+    turned *= shift
+    distance_squared = (turned[0] + turned[1]) / determinant
+    inside = distance_squared <= sigmas**2
+    inside &= seconds >= shortest
+    return distance_squared, determinant, inside
+
+
+def _difference(
+    tracks: FloatArray, terms: FloatArray, plots: FloatArray, noise_density: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    seconds: FloatArray = plots[TIME] - tracks[TIME_OF_STATE]
+    shift: FloatArray = plots[X : Y + 1] - tracks[STATE][:2] - tracks[STATE][2:] * seconds
+    error = _predicted(terms, seconds, noise_density)
+    error += plots[XX : YY + 1]
+    return seconds, shift, error
+
+
+def _predicted(terms: FloatArray, seconds: FloatArray, noise_density: float) -> FloatArray:
+    # In Horner's form, the spread by white acceleration as the cubic term.
+    cubic = noise_density * _ISOTROPIC.reshape(4, *(1,) * seconds.ndim)
+    predicted: FloatArray = cubic * seconds
+    predicted += terms[8:]
+    predicted *= seconds
+    predicted += terms[4:8]
+    predicted *= seconds
+    predicted += terms[:4]
+    return predicted
+
+
 def _near_pairs(
-    store: TrackStore, tracks: IndexArray, plots: Plots, sigmas: float, noise_density: float
+    tracks: FloatArray, terms: FloatArray, plots: Plots, sigmas: float, noise_density: float
 ) -> tuple[IndexArray, IndexArray, int]:
-    total = len(tracks) * len(plots)
-    if total <= _FEW_PAIRS:
-        # To look for neighbours would cost more than to try them all.
-        row, plot = np.divmod(np.arange(total), len(plots))
-        return row, plot, 0
     begin, end = plots.time[0], plots.time[-1]
-    state, covariance = store["state"][tracks], store["covariance"][tracks]
-    seconds = 0.5 * (begin + end) - store["time"][tracks]
-    centre = state[:, :2] + state[:, 2:] * seconds[:, None]
-    spread = trace(predict_position_covariance(covariance, seconds, noise_density))
-    spread += trace(plots.covariance).max()
-    travel = np.hypot(state[:, 2], state[:, 3]) * 0.5 * (end - begin)
+    velocity = tracks[STATE][2:]
+    seconds = 0.5 * (begin + end) - tracks[TIME_OF_STATE]
+    centre = tracks[STATE][:2] + velocity * seconds
+    xx, _, _, yy = _predicted(terms, seconds, noise_density)
+    spread = xx + yy + (plots.values[XX] + plots.values[YY]).max()
+    travel = np.hypot(velocity[0], velocity[1]) * 0.5 * (end - begin)
     # The predicted error grows over half a slice; a tenth covers it, as slices are short against the period.
     radius = float((1.1 * sigmas * np.sqrt(spread) + travel).max(initial=0.0))
-    return neighbour_pairs(centre, plots.position, radius, _MOST_NEIGHBOURS)
+    return neighbour_pairs(centre.T, plots.position, radius, _MOST_NEIGHBOURS)

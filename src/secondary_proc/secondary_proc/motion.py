@@ -31,9 +31,10 @@ def _position_terms() -> FloatArray:
     return terms.reshape(16, 12)
 
 
-_POSITION_TERMS = _position_terms()
-"""Takes a covariance to the coefficients of time's powers in the predicted position's covariance."""
-_VARIANCE_TERMS = _POSITION_TERMS.reshape(16, 3, 4)[:, :, [0, 3]].sum(axis=2)
+POSITION_TERMS = _position_terms().T.copy()
+"""Takes covariances, shape (16, n), to the coefficients of time's powers in the predicted position's: four constant
+terms (xx, xy, yx, yy), four linear, four quadratic, shape (12, n)."""
+_VARIANCE_TERMS = POSITION_TERMS.reshape(3, 4, 16)[:, [0, 3]].sum(axis=1).T
 
 
 def noise_density(acceleration: float) -> float:
@@ -115,7 +116,7 @@ def predict_position_covariance(
     Returns:
         Covariances of (x, y), shape (n, 2, 2).
     """
-    constant, linear, square = (covariance.reshape(-1, 16) @ _POSITION_TERMS).T.reshape(3, 2, 2, -1)
+    constant, linear, square = (POSITION_TERMS @ covariance.reshape(-1, 16).T).reshape(3, 2, 2, -1)
     moved = constant + seconds * (linear + seconds * square)
     spread = np.abs(seconds) ** 3 * (noise_density / 3.0)
     moved[0, 0] += spread

@@ -5,23 +5,30 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from radar_common.tables import TrackStatus
 from secondary_proc.motion import two_point_state
-from secondary_proc.plots import Plots
+from secondary_proc.plots import AZIMUTH, RANGE, Plots
+from secondary_proc.track_store import Columns
 
 
-def first_state(first: Plots, second: Plots, noise_density: float) -> dict[str, Any]:
-    """Columns of new tracks that follow from their two plots.
+def opened_tracks(
+    first: Plots, second: Plots, noise_density: float, memory: np.dtype[Any]
+) -> Columns:
+    """Make the columns of new tracks, as far as they follow from their two plots.
 
     Args:
         first: earlier plots, n of them.
         second: later plots, n of them.
         noise_density: power spectral density of the acceleration per axis, m^2/s^3.
+        memory: dtype of what the smoother keeps of a track.
 
     Returns:
-        Values by name of the track store's column.
+        Tentative tracks without id and score, not yet scheduled.
     """
-    state, covariance = two_point_state(
+    tracks = Columns.zeros(len(first), memory)
+    tracks.state[:], tracks.covariance[:] = two_point_state(
         first.position,
         first.covariance,
         second.position,
@@ -29,18 +36,8 @@ def first_state(first: Plots, second: Plots, noise_density: float) -> dict[str, 
         second.time - first.time,
         noise_density,
     )
-    return {
-        "status": TrackStatus.TENTATIVE,
-        "state": state,
-        "covariance": covariance,
-        "time": second.time,
-        "crossing": second.time,
-        "expected": second.time,
-        "opens": second.time,
-        "due": second.time,
-        "born": first.time,
-        "hits": 2,
-        "misses": 0,
-        "plot_range": second.range,
-        "plot_azimuth": second.azimuth,
-    }
+    tracks.passed[:], tracks.born[:] = second.time, first.time
+    tracks.schedule[:] = np.inf
+    tracks.plot[:] = second.values[RANGE : AZIMUTH + 1]
+    tracks.status[:], tracks.hits[:] = TrackStatus.TENTATIVE, 2
+    return tracks

@@ -6,10 +6,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from radar_common.tables import TrackStatus
+from radar_common.tables import EndReason, TrackStatus
 from secondary_proc import score
 from secondary_proc.initiation import Evidence, Initiation
-from secondary_proc.plots import FloatArray, Plots
+from secondary_proc.plots import AZIMUTH, RANGE, FloatArray, Plots
 from secondary_proc.smoothing import Measured, Smoother
 from secondary_proc.track_store import Columns
 
@@ -20,6 +20,8 @@ TENTATIVE = int(TrackStatus.TENTATIVE)
 CONFIRMED = int(TrackStatus.CONFIRMED)
 COASTING = int(TrackStatus.COASTING)
 ENDED = int(TrackStatus.ENDED)
+_ALIVE, _MISSES, _SCORE = int(EndReason.ALIVE), int(EndReason.MISSES), int(EndReason.SCORE)
+_NOT_CONFIRMED = int(EndReason.NOT_CONFIRMED)
 
 
 def take_plots(tracks: Columns, plots: Plots, gain: FloatArray, smoother: Smoother) -> None:
@@ -48,8 +50,8 @@ def take_plots(tracks: Columns, plots: Plots, gain: FloatArray, smoother: Smooth
     )
     tracks.state[:], tracks.covariance[:] = smoothed.state, smoothed.covariance
     tracks.memory[:] = smoothed.memory
-    tracks.time[:] = tracks.crossing[:] = plots.time
-    tracks.plot_range[:], tracks.plot_azimuth[:] = plots.range, plots.azimuth
+    tracks.passed[:], tracks.schedule[:] = plots.time, np.inf
+    tracks.plot[:] = plots.values[RANGE : AZIMUTH + 1]
     tracks.score += gain
     np.maximum(tracks.best, tracks.score, out=tracks.best)
 
@@ -69,9 +71,10 @@ def take_misses(tracks: Columns, allowed: int, detection_probability: float) -> 
     tracks.misses += 1
     tracks.score += score.miss(detection_probability)
     tracks.crossing[:] = tracks.expected
-    worn = score.is_spent(tracks.best, tracks.score, allowed, detection_probability)
-    worn |= tracks.misses >= allowed
-    tracks.status[:] = np.where(tentative, TENTATIVE, np.where(worn, ENDED, COASTING))
+    spent = score.is_spent(tracks.best, tracks.score, allowed, detection_probability)
+    reason = np.where(tracks.misses >= allowed, _MISSES, np.where(spent, _SCORE, _ALIVE))
+    tracks.reason[:] = np.where(tentative, _ALIVE, reason)
+    tracks.status[:] = np.where(tentative, TENTATIVE, np.where(reason == _ALIVE, COASTING, ENDED))
     return tentative
 
 
@@ -101,8 +104,8 @@ def judge(
         )
     )
     tracks.rule[tentative] = verdict.rule
-    status = tracks.status[tentative]
-    status[verdict.confirmed] = CONFIRMED
-    status[verdict.dropped] = ENDED
-    tracks.status[tentative] = status
+    tracks.status[tentative] = np.where(
+        verdict.dropped, ENDED, np.where(verdict.confirmed, CONFIRMED, TENTATIVE)
+    )
+    tracks.reason[tentative] = np.where(verdict.dropped, _NOT_CONFIRMED, _ALIVE)
     return int(np.count_nonzero(verdict.confirmed))

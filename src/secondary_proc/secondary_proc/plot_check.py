@@ -13,12 +13,14 @@ from radar_common.health import Health
 from secondary_proc.plots import (
     AZIMUTH,
     AZIMUTH_STD,
-    QUEUE_COLUMNS,
+    PLOT_ROWS,
+    POLAR_ROWS,
     RANGE,
     RANGE_STD,
     STRENGTH,
     TIME,
     FloatArray,
+    locate,
 )
 
 if TYPE_CHECKING:
@@ -29,85 +31,97 @@ LARGEST_RANGE_STD = 10e3
 LARGEST_AZIMUTH_STD = 0.5
 
 _TAKEN_OVER = (
+    (TIME, "time_offset"),
     (RANGE, "range"),
     (AZIMUTH, "azimuth"),
     (RANGE_STD, "range_std"),
     (AZIMUTH_STD, "azimuth_std"),
     (STRENGTH, "snr_db"),
 )
-_LOWEST = np.zeros(QUEUE_COLUMNS)
-_LOWEST[TIME], _LOWEST[RANGE] = -LONGEST_OFFSET, np.nextafter(0.0, 1.0)
-_HIGHEST = np.zeros(QUEUE_COLUMNS)
-_HIGHEST[TIME], _HIGHEST[AZIMUTH] = LONGEST_OFFSET, np.nextafter(TWO_PI, 0.0)
-_HIGHEST[RANGE_STD], _HIGHEST[AZIMUTH_STD] = LARGEST_RANGE_STD, LARGEST_AZIMUTH_STD
+_CHECKED = STRENGTH
 
 
-def check(
-    source: npt.NDArray[np.void], stamp: float, parameters: TrackerParameters, health: Health
-) -> FloatArray:
-    """Take over the plots that can be used; the others are dropped and counted by reason.
+class PlotCheck:
+    """The limits that a set of parameters draws."""
 
-    Errors of plots that tell none, or none above zero, are the parameters' defaults.
+    def __init__(self, parameters: TrackerParameters) -> None:
+        """Draw the limits.
 
-    Args:
-        source: plots, dtype PLOT, shape (n,).
-        stamp: of their message, seconds.
-        parameters: limits and errors by default.
-        health: where refused plots are counted.
+        Args:
+            parameters: limits and errors by default.
+        """
+        self._parameters = parameters
+        self._lowest = np.zeros((_CHECKED, 1))
+        self._lowest[TIME], self._lowest[RANGE] = -LONGEST_OFFSET, np.nextafter(0.0, 1.0)
+        self._lowest[RANGE_STD] = parameters.minimum_range_std
+        self._lowest[AZIMUTH_STD] = parameters.minimum_azimuth_std
+        self._highest = np.zeros((_CHECKED, 1))
+        self._highest[TIME], self._highest[RANGE] = LONGEST_OFFSET, parameters.maximum_range
+        self._highest[AZIMUTH] = np.nextafter(TWO_PI, 0.0)
+        self._highest[RANGE_STD] = LARGEST_RANGE_STD
+        self._highest[AZIMUTH_STD] = LARGEST_AZIMUTH_STD
 
-    Returns:
-        Plots as the queue keeps them, shape (m, QUEUE_COLUMNS), m <= n.
-    """
-    rows = np.empty((len(source), QUEUE_COLUMNS))
-    rows[:, TIME] = offset = source["time_offset"]
-    for column, name in _TAKEN_OVER:
-        rows[:, column] = source[name]
-    lowest = _LOWEST.copy()
-    lowest[RANGE_STD] = parameters.minimum_range_std
-    lowest[AZIMUTH_STD] = parameters.minimum_azimuth_std
-    highest = _HIGHEST.copy()
-    highest[RANGE] = parameters.maximum_range
-    # Most messages hold nothing to object to; then two comparisons are enough.
-    if ((rows >= lowest) & (rows <= highest))[:, :STRENGTH].all():
-        rows[:, TIME] += stamp
-        return rows
-    rows[:, TIME] += stamp
-    rows[:, RANGE_STD] = _error(
-        source["range_std"], parameters.default_range_std, parameters.minimum_range_std
-    )
-    rows[:, AZIMUTH_STD] = _error(
-        source["azimuth_std"], parameters.default_azimuth_std, parameters.minimum_azimuth_std
-    )
-    good = (
-        (rows[:, RANGE] > 0.0)
-        & (rows[:, RANGE] <= parameters.maximum_range)
-        & np.isfinite(rows[:, AZIMUTH])
-        & (np.abs(offset) <= LONGEST_OFFSET)
-        & (rows[:, RANGE_STD] <= LARGEST_RANGE_STD)
-        & (rows[:, AZIMUTH_STD] <= LARGEST_AZIMUTH_STD)
-    )
-    if not good.all():
-        _count(rows[~good], offset[~good], parameters, health)
-        rows = rows[good]
-    rows[:, AZIMUTH] = wrap_two_pi(rows[:, AZIMUTH])
-    return rows
+    def __call__(self, source: npt.NDArray[np.void], stamp: float, health: Health) -> FloatArray:
+        """Take over the plots that can be used; the others are dropped and counted by reason.
+
+        Errors of plots that tell none, or none above zero, are the parameters' defaults.
+
+        Args:
+            source: plots, dtype PLOT, shape (n,).
+            stamp: of their message, seconds.
+            health: where refused plots are counted.
+
+        Returns:
+            Plots as `Plots` keeps them, shape (PLOT_ROWS, m), m <= n.
+        """
+        values = np.empty((PLOT_ROWS, len(source)))
+        for row, name in _TAKEN_OVER:
+            values[row] = source[name]
+        told = values[:_CHECKED]
+        # Most messages hold nothing to object to; then two comparisons are enough.
+        good = (told >= self._lowest) & (told <= self._highest)
+        if np.count_nonzero(good) < good.size:
+            values = self._usable(values, health)
+        values[TIME] += stamp
+        locate(values)
+        return values
+
+    def _usable(self, values: FloatArray, health: Health) -> FloatArray:
+        parameters = self._parameters
+        values[RANGE_STD] = _error(
+            values[RANGE_STD], parameters.default_range_std, parameters.minimum_range_std
+        )
+        values[AZIMUTH_STD] = _error(
+            values[AZIMUTH_STD], parameters.default_azimuth_std, parameters.minimum_azimuth_std
+        )
+        good = (
+            (values[RANGE] > 0.0)
+            & (values[RANGE] <= parameters.maximum_range)
+            & np.isfinite(values[AZIMUTH])
+            & (np.abs(values[TIME]) <= LONGEST_OFFSET)
+            & (values[RANGE_STD] <= LARGEST_RANGE_STD)
+            & (values[AZIMUTH_STD] <= LARGEST_AZIMUTH_STD)
+        )
+        if not good.all():
+            _count(values[:POLAR_ROWS, ~good], parameters, health)
+            values = values[:, good]
+        values[AZIMUTH] = wrap_two_pi(values[AZIMUTH])
+        return values
 
 
 def _error(told: npt.NDArray[np.floating], default: float, smallest: float) -> FloatArray:
     return np.maximum(np.where(told > 0.0, told, default), smallest)
 
 
-def _count(
-    rows: FloatArray, offset: FloatArray, parameters: TrackerParameters, health: Health
-) -> None:
-    finite = np.isfinite(rows[:, [TIME, RANGE, AZIMUTH]]).all(axis=1)
-    counted = np.zeros(len(rows), bool)
+def _count(polar: FloatArray, parameters: TrackerParameters, health: Health) -> None:
+    finite = np.isfinite(polar[[TIME, RANGE, AZIMUTH]]).all(axis=0)
+    counted = np.zeros(polar.shape[1], bool)
     for reason, bad in (
         ("plots that are not finite", ~finite),
-        ("plots at no positive range", rows[:, RANGE] <= 0.0),
-        ("plots beyond the maximum range", rows[:, RANGE] > parameters.maximum_range),
-        ("plots far from their message's time", np.abs(offset) > LONGEST_OFFSET),
-        ("plots with huge errors", np.ones(len(rows), bool)),
+        ("plots at no positive range", polar[RANGE] <= 0.0),
+        ("plots beyond the maximum range", polar[RANGE] > parameters.maximum_range),
+        ("plots far from their message's time", np.abs(polar[TIME]) > LONGEST_OFFSET),
+        ("plots with huge errors", np.ones(polar.shape[1], bool)),
     ):
         health.drop(reason, int(np.count_nonzero(bad & ~counted)))
         counted |= bad

@@ -26,6 +26,7 @@ _SMALLEST_TURN = 1.0  # rad
 _FINEST_GRID = 4096
 _LONGEST_SILENCE = 20.0  # periods
 _VERDICT_PLOTS = 12
+_REFINED_PLOTS = 36
 _UNKNOWN = 4.0  # s
 _LONGEST_DOUBT = 8.0  # periods
 
@@ -48,6 +49,9 @@ class Rotation:
         self._phase = 0.0
         self._origin = 0.0
         self._news = 0
+        self._latest = -np.inf
+        self._gathered: list[tuple[FloatArray, FloatArray]] = []
+        self._number_gathered = 0
         self._lost = -np.inf
         self.locked = False
         """Whether the plots at present fit the estimate."""
@@ -105,14 +109,25 @@ class Rotation:
         """
         if not len(times):
             return
-        if len(self._times) and times[0] - self._times[-1] > _LONGEST_SILENCE * self.period:
+        if float(times[0]) - self._latest > _LONGEST_SILENCE * self.period:
+            self._gathered.clear()
+            self._number_gathered = 0
             self._restart(0)
+        self._latest = float(times[-1])
+        self._gathered.append((times, azimuths))
+        self._number_gathered += len(times)
+        # As long as it is known, a verdict on some plots at once is soon enough.
+        if self.locked and self._number_gathered < _VERDICT_PLOTS:
+            return
+        times, azimuths = (np.concatenate(parts) for parts in zip(*self._gathered, strict=True))
+        self._news += self._number_gathered
+        self._gathered.clear()
+        self._number_gathered = 0
         if self.locked:
             self._check(times[-_WINDOW:], azimuths[-_WINDOW:])
         self._times = np.concatenate([self._times, times])[-_WINDOW:]
         self._azimuths = np.concatenate([self._azimuths, azimuths])[-_WINDOW:]
-        self._news += len(times)
-        if self.locked and self._news >= _VERDICT_PLOTS:
+        if self.locked and self._news >= _REFINED_PLOTS:
             self._news = 0
             self._refine()
         elif not self.locked and self._news >= _FEWEST:

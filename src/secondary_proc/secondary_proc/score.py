@@ -16,7 +16,7 @@ FloatArray = npt.NDArray[np.float64]
 
 
 def hit(
-    detection_probability: float,
+    detection_probability: FloatArray | float,
     distance_squared: FloatArray,
     determinant: FloatArray,
     density: FloatArray,
@@ -24,7 +24,7 @@ def hit(
     """Gain of a plot in a track's gate.
 
     Args:
-        detection_probability: of a plot per scan.
+        detection_probability: of a plot per scan, one for all or shape (n,).
         distance_squared: normalised by the covariance of the predicted difference, shape (n,).
         determinant: of that covariance, m^4, shape (n,).
         density: false plots per square metre, shape (n,).
@@ -55,7 +55,7 @@ def false_plots_nearer(
 
 
 def second_plot(
-    detection_probability: float,
+    detection_probability: FloatArray | float,
     area: FloatArray,
     density: FloatArray,
     skipped: npt.NDArray[np.integer],
@@ -74,20 +74,22 @@ def second_plot(
     return np.log(detection_probability / (area * density)) + skipped * miss(detection_probability)
 
 
-def miss(detection_probability: float) -> float:
+def miss(detection_probability: FloatArray | float) -> FloatArray | float:
     """Change of the score by a scan without a plot.
 
     Args:
-        detection_probability: of a plot per scan.
+        detection_probability: of a plot per scan, one for all or shape (n,).
 
     Returns:
         The change, negative.
     """
+    if isinstance(detection_probability, np.ndarray):
+        return np.log1p(-detection_probability)
     return log1p(-detection_probability)
 
 
 def is_spent(
-    best: FloatArray, score: FloatArray, misses: int, detection_probability: float
+    best: FloatArray, score: FloatArray, misses: int, detection_probability: FloatArray | float
 ) -> npt.NDArray[np.bool_]:
     """Tell which tracks have lost more since their best than a row of misses costs.
 

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from secondary_proc.motion import quadratic_form, trace
 from secondary_proc.neighbours import neighbour_pairs
-from secondary_proc.plots import Plots
+from secondary_proc.plots import PLOT_ROWS, Plots
 
 FloatArray = npt.NDArray[np.float64]
 IndexArray = npt.NDArray[np.intp]
@@ -62,7 +62,7 @@ class Starts:
 
     def __init__(self) -> None:
         """Start without plots."""
-        self.plots = Plots(*(np.zeros(shape) for shape in (0, 0, 0, (0, 2), (0, 2, 2))))
+        self.plots = Plots(np.zeros((PLOT_ROWS, 0)))
         self._continued: IndexArray = np.zeros(0, np.intp)
 
     def add(self, plots: Plots, limit: int) -> int:
@@ -75,12 +75,9 @@ class Starts:
         Returns:
             Number of plots given up because of the limit.
         """
-        both = [
-            np.concatenate([getattr(self.plots, name), getattr(plots, name)])[-limit:]
-            for name in Plots.__dataclass_fields__
-        ]
-        lost = len(self.plots) + len(plots) - len(both[0])
-        self.plots = Plots(*both)
+        both = np.concatenate([self.plots.values, plots.values], axis=1)[:, -limit:]
+        lost = len(self.plots) + len(plots) - both.shape[1]
+        self.plots = Plots(both)
         self._continued = np.concatenate([self._continued, np.zeros(len(plots), np.intp)])[-limit:]
         return lost
 

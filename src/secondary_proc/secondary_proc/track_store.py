@@ -7,26 +7,18 @@ back in one call is what makes a message of a few plots cheap.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
 
-_REAL = (
-    "time",
-    "crossing",
-    "expected",
-    "opens",
-    "due",
-    "born",
-    "score",
-    "best",
-    "plot_range",
-    "plot_azimuth",
-)
-_WHOLE = ("id", "status", "hits", "misses", "rule")
-_HEIGHT = 4 + 16 + len(_REAL)
+STATE, COVARIANCE, TIME_OF_STATE = slice(0, 4), slice(4, 20), 20
+"""Rows of `Columns.numbers` that a prediction needs; they come first."""
+PREDICTED_ROWS = TIME_OF_STATE + 1
+_CROSSING, _EXPECTED, _DUE, _PLOT_RANGE = 21, 22, 24, 28
+_REAL_ROWS = 30
+_HITS = 3
+_WHOLE_ROWS = 6
 _FIRST_CAPACITY = 64
 
 FloatArray = npt.NDArray[np.float64]
@@ -51,11 +43,16 @@ class Columns:
         best: highest score so far.
         plot_range: of the last plot, m.
         plot_azimuth: of the last plot, rad.
+        schedule: `expected`, `opens` and `due` together, infinite until they are calculated, shape (3, n).
+        passed: `time` and `crossing` together, shape (2, n).
+        plot: `plot_range` and `plot_azimuth` together, shape (2, n).
         id: never used again.
         status: TrackStatus.
+        reason: EndReason.
         hits: plots in the track.
         misses: passages without a plot since the last one.
         rule: memory of the initiation rule.
+        passages: `hits` and `misses` together, shape (2, n).
     """
 
     def __init__(
@@ -88,8 +85,29 @@ class Columns:
             self.best,
             self.plot_range,
             self.plot_azimuth,
-        ) = numbers[20:]
-        self.id, self.status, self.hits, self.misses, self.rule = counts
+        ) = numbers[TIME_OF_STATE:]
+        self.passed = numbers[TIME_OF_STATE : _CROSSING + 1]
+        self.schedule = numbers[_EXPECTED : _DUE + 1]
+        self.plot = numbers[_PLOT_RANGE:]
+        self.id, self.status, self.reason, self.hits, self.misses, self.rule = counts
+        self.passages = counts[_HITS : _HITS + 2]
+
+    @classmethod
+    def zeros(cls, count: int, memory: np.dtype[Any]) -> Self:
+        """Make room.
+
+        Args:
+            count: number of tracks.
+            memory: dtype of what the smoother keeps.
+
+        Returns:
+            Tracks of zeros.
+        """
+        return cls(
+            np.zeros((_REAL_ROWS, count)),
+            np.zeros((_WHOLE_ROWS, count), np.int64),
+            np.zeros(count, memory),
+        )
 
     def __len__(self) -> int:
         """Number of tracks."""
@@ -107,6 +125,21 @@ class Columns:
         column: npt.NDArray[Any] = getattr(self, name)
         return column
 
+    def take(self, which: npt.NDArray[Any]) -> Columns:
+        """Copy some.
+
+        Args:
+            which: indices, shape (n,).
+
+        Returns:
+            The copy.
+        """
+        return Columns(
+            self.numbers.take(which, axis=1),
+            self.counts.take(which, axis=1),
+            self.memory.take(which),
+        )
+
     def first(self, number: int) -> Columns:
         """View of the first tracks.
 
@@ -120,7 +153,11 @@ class Columns:
 
 
 class TrackStore:
-    """Growing memory of all tracks; `store["state"]` is a live view of them."""
+    """Growing memory of all tracks; `store["state"]` is a live view of them.
+
+    Attributes:
+        live: all tracks, writable, valid until tracks are added or removed.
+    """
 
     def __init__(self, memory: np.dtype[Any]) -> None:
         """Start without tracks.
@@ -129,8 +166,8 @@ class TrackStore:
             memory: dtype of the column "memory", which belongs to the smoother.
         """
         self._size = 0
-        self._all = _allocate(_FIRST_CAPACITY, memory)
-        self._live = self._all.first(0)
+        self._all = Columns.zeros(_FIRST_CAPACITY, memory)
+        self.live = self._all.first(0)
 
     def __len__(self) -> int:
         """Number of tracks."""
@@ -145,7 +182,7 @@ class TrackStore:
         Returns:
             Array, first axis of length len(self).
         """
-        return self._live[name]
+        return self.live[name]
 
     def take(self, tracks: npt.NDArray[np.intp]) -> Columns:
         """Copy all that is known of some tracks.
@@ -156,12 +193,7 @@ class TrackStore:
         Returns:
             The copy, to be changed and given to `put`.
         """
-        live = self._live
-        return Columns(
-            live.numbers.take(tracks, axis=1),
-            live.counts.take(tracks, axis=1),
-            live.memory.take(tracks),
-        )
+        return self.live.take(tracks)
 
     def put(self, tracks: npt.NDArray[np.intp], columns: Columns) -> None:
         """Write back what `take` copied.
@@ -170,32 +202,29 @@ class TrackStore:
             tracks: the same indices, each once, shape (n,).
             columns: the changed copy.
         """
-        live = self._live
+        live = self.live
         live.numbers[:, tracks] = columns.numbers
         live.counts[:, tracks] = columns.counts
         live.memory[tracks] = columns.memory
 
-    def append(self, values: Mapping[str, npt.ArrayLike], count: int) -> npt.NDArray[np.intp]:
+    def append(self, columns: Columns) -> None:
         """Add tracks.
 
         Args:
-            values: one array (count, ...) or scalar for every quantity.
-            count: how many.
-
-        Returns:
-            Their indices.
+            columns: all that is known of them.
         """
-        before, after = self._size, self._size + count
+        before, after = self._size, self._size + len(columns)
         if after > len(self._all):
-            larger = _allocate(max(after, 2 * len(self._all)), self._all.memory.dtype)
-            larger.numbers[:, :before] = self._live.numbers
-            larger.counts[:, :before] = self._live.counts
-            larger.memory[:before] = self._live.memory
+            larger = Columns.zeros(max(after, 2 * len(self._all)), self._all.memory.dtype)
+            larger.numbers[:, :before] = self.live.numbers
+            larger.counts[:, :before] = self.live.counts
+            larger.memory[:before] = self.live.memory
             self._all = larger
         self._resize(after)
-        for name in ("state", "covariance", *_REAL, *_WHOLE, "memory"):
-            self._live[name][before:] = values[name]
-        return np.arange(before, after)
+        live = self.live
+        live.numbers[:, before:] = columns.numbers
+        live.counts[:, before:] = columns.counts
+        live.memory[before:] = columns.memory
 
     def remove(self, gone: npt.NDArray[np.bool_]) -> None:
         """Remove tracks; the last ones move into the gaps.
@@ -220,12 +249,4 @@ class TrackStore:
 
     def _resize(self, size: int) -> None:
         self._size = size
-        self._live = self._all.first(size)
-
-
-def _allocate(capacity: int, memory: np.dtype[Any]) -> Columns:
-    return Columns(
-        np.zeros((_HEIGHT, capacity)),
-        np.zeros((len(_WHOLE), capacity), np.int64),
-        np.zeros(capacity, memory),
-    )
+        self.live = self._all.first(size)

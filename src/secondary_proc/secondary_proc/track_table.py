@@ -47,21 +47,21 @@ def rows(tracks: Columns, *, at: FloatArray | None = None, noise_density: float 
     """
     out = np.zeros(len(tracks), _PACKED)
     state, covariance, time = tracks.state, tracks.covariance, tracks.time
-    plot = out["plot"]
     if at is None:
-        plot[:, 0], plot[:, 1] = tracks.plot_range, tracks.plot_azimuth
+        out["plot"] = tracks.plot.T
     else:
-        plot[:] = np.nan
+        out["plot"] = np.nan
         covariance = predict_covariance(covariance, at - time, noise_density)
         state, time = predict_state(state, at - time), at
-    kinematic, velocity, passages = out["kinematic"], out["velocity"], out["passages"]
+    kinematic, velocity = out["kinematic"], out["velocity"]
     kinematic[:, :2], kinematic[:, 3:5] = state[:, :2], state[:, 2:]
     kinematic[:, 5:] = covariance.reshape(-1, 16)
     velocity[:, 0], velocity[:, 1] = polar_from_enu(state[:, 2], state[:, 3])
-    passages[:, 0], passages[:, 1] = tracks.hits, tracks.misses
+    out["passages"] = tracks.passages.T
     out["time"] = time
     out["age"] = time - tracks.born
     out["id"], out["status"], out["score"] = tracks.id, tracks.status, tracks.score
+    out["end_reason"] = tracks.reason
     return out.view(TRACK)
 
 

@@ -9,15 +9,15 @@ import numpy.typing as npt
 from radar_common.health import Health
 from radar_common.tables import PLOT, SITE_FRAME, TRACK, Table
 from secondary_proc import score
-from secondary_proc.association import ASSOCIATIONS, SOFT, GateGraph
+from secondary_proc.association import SOFT
 from secondary_proc.association.soft import Contest
+from secondary_proc.choice import Pairs
 from secondary_proc.clutter import FalsePlotDensity
-from secondary_proc.gates import Gated
 from secondary_proc.gating import SelectionWatch
 from secondary_proc.initiation.strength import StrengthRatio
 from secondary_proc.parameters import TrackerParameters
 from secondary_proc.plot_queue import PlotQueue
-from secondary_proc.plots import AZIMUTH, STRENGTH, TIME, FloatArray, Plots
+from secondary_proc.plots import AZIMUTH, TIME, FloatArray, Plots
 from secondary_proc.rotation import Rotation
 from secondary_proc.starts import Annulus, Starts
 from secondary_proc.tracks import Tracks
@@ -29,7 +29,11 @@ _LONGEST_SLICE = 0.25
 _COMPETITORS = 1 / 32
 _RESTART = 5.0
 _CHANGE = 0.003
-_WATCHED = 64
+_GATHERED_MISSES = 1 / 16
+"""Turns over which misses are gathered, to be told at once."""
+_WATCHED = 0.25
+"""Turns between two looks at what diagnostics show."""
+_LOOKED_AT = 64
 """Of so many slices of time one is looked at to tell how surely plots are selected."""
 _SECONDS_PER_HOUR = 3600.0
 _NO_ROWS = np.zeros(0, TRACK)
@@ -47,6 +51,7 @@ class Tracker:
         """
         self.parameters = parameters
         self.health = health if health is not None else Health()
+        self._watched = -np.inf
         self._begin()
         self._tracks = Tracks(parameters, self._rotation, self.health)
 
@@ -57,6 +62,7 @@ class Tracker:
             parameters: how to track from now on.
         """
         self.parameters = parameters
+        self._queue.reconfigure(parameters)
         self._tracks.reconfigure(parameters, self._rotation)
         self._prepare()
 
@@ -77,7 +83,7 @@ class Tracker:
         Raises:
             TypeError: the table holds no plots.
         """
-        if plots.rows.dtype != PLOT:
+        if plots.rows.dtype is not PLOT and plots.rows.dtype != PLOT:
             raise TypeError(f"the tracker takes plots, not {plots.rows.dtype}")
         out: list[Rows] = []
         stamp = self._queue.seconds(plots.stamp)
@@ -90,16 +96,16 @@ class Tracker:
         self._clutter.forget(elapsed / self._rotation.period)
         if self._strength is not None:
             self._strength.forget(elapsed / self._rotation.period)
-        accepted = self._queue.put(plots, self.parameters, self._rotation.period)
-        self.health.count("plots in", len(accepted))
+        accepted = self._queue.put(plots, self._rotation.period)
+        self.health.count("plots in", accepted.shape[1])
         locks = self._rotation.locks
-        if len(accepted):
-            self._rotation.observe(accepted[:, TIME], accepted[:, AZIMUTH])
+        self._rotation.observe(accepted[TIME], accepted[AZIMUTH])
         if abs(self._rotation.period / self._tracks.period - 1.0) > _CHANGE:
             self._tracks.reconfigure(self.parameters, self._rotation)
         if self._rotation.locks > locks:
             self._tracks.synchronise(self._queue.begin)
-        self._drain(out)
+        # Where messages are short, misses may wait for those of the next ones.
+        self._drain(out, gather=elapsed < _GATHERED_MISSES * self._rotation.period)
         return self._table(out, plots.stamp)
 
     def flush(self) -> Table:
@@ -110,10 +116,11 @@ class Tracker:
         """
         out: list[Rows] = []
         self._drain(out, everything=True)
+        self._watched = -np.inf
         return self._table(out, self._queue.last_stamp)
 
     def _begin(self) -> None:
-        self._queue = PlotQueue(self.health)
+        self._queue = PlotQueue(self.parameters, self.health)
         self._rotation = Rotation(self.parameters.scan_period)
         self._clutter = FalsePlotDensity(self.parameters.maximum_range)
         self._starts = Starts()
@@ -129,120 +136,68 @@ class Tracker:
             self._strength = StrengthRatio()
         self._selection = SelectionWatch(parameters.gate_sigmas, parameters.detection_probability)
 
-    def _drain(self, out: list[Rows], *, everything: bool = False) -> None:
+    def _drain(self, out: list[Rows], *, everything: bool = False, gather: bool = False) -> None:
         period = self._tracks.period
         while (
             taken := self._queue.take(
                 _LONGEST_SLICE * period, _COMPETITORS * period, everything=everything
             )
         ) is not None:
-            rows, ripe = taken
-            self._miss(min(rows[0, TIME], self._queue.now), out)
-            self._work(Plots.from_queue(rows), rows, ripe, out)
-        self._miss(self._queue.now, out)
+            values, ripe = taken
+            self._miss(min(float(values[TIME, 0]), self._queue.now), out, gather=gather)
+            self._work(Plots(values), ripe, out)
+        self._miss(self._queue.now, out, gather=gather)
 
-    def _miss(self, until: float, out: list[Rows]) -> None:
+    def _miss(self, until: float, out: list[Rows], *, gather: bool) -> None:
         if self._rotation.tells_passages(self._queue.now):
-            out.extend(self._tracks.miss(until))
+            wait = _GATHERED_MISSES * self._rotation.period if gather else 0.0
+            out.extend(self._tracks.miss(until, wait=wait))
 
-    def _work(self, plots: Plots, rows: FloatArray, ripe: int, out: list[Rows]) -> None:
+    def _work(self, plots: Plots, ripe: int, out: list[Rows]) -> None:
         gated = self._tracks.gate(plots)
-        strange = self._strength.ratio(rows[:, STRENGTH]) if self._strength is not None else None
-        unclaimed = np.ones(ripe, bool)
-        untracked = np.ones(ripe, bool)
+        strange = self._strength.ratio(plots.strength) if self._strength is not None else None
+        unclaimed = np.ones(len(plots), bool)
+        untracked = np.ones(len(plots), bool)
         if len(gated.track):
-            density = self._clutter.per_area(plots.range[gated.plot])
+            density = self._clutter.per_area(plots.range)
             if strange is not None:
-                density *= strange[gated.plot]
-            gain = self._gain(gated, density)
-            confirmed = self._tracks.is_confirmed(gated.track)
-            edges = self._choose(gated, gain, density, confirmed, ripe)
-            plot = gated.plot[edges]
-            now = plot < ripe
-            unclaimed[plot[now]] = False
-            untracked[plot[now & confirmed[edges]]] = False
-            if len(edges):
-                self._slices += 1
-                if self._slices % _WATCHED == 0:
-                    self._look(gated, gain, density, edges[confirmed[edges]])
-                gains = self._score_gain(gated, gain, density, edges)
-                contest = self._contest(gated, gain, confirmed, edges, plots)
-                tracks, taken = gated.track[edges], plots[plot]
-                out.append(self._tracks.update(tracks, taken, gains, self._threshold(), contest))
-                self._queue.take_also(plot[~now] - ripe)
-        self._clutter.observe(plots.range[:ripe][untracked])
-        if self._strength is not None:
-            self._strength.observe(rows[:ripe, STRENGTH], ~untracked)
-        if unclaimed.any():
-            few = strange[:ripe][unclaimed] if strange is not None else None
-            self._open(plots[:ripe][unclaimed], few, out)
-
-    def _gain(self, gated: Gated, density: FloatArray) -> FloatArray:
-        return score.hit(
-            self.parameters.detection_probability,
-            gated.distance_squared,
-            gated.determinant,
-            density,
-        )
-
-    def _score_gain(
-        self, gated: Gated, gain: FloatArray, density: FloatArray, edges: npt.NDArray[np.intp]
-    ) -> FloatArray:
-        by_hits = self._tracks.hit_gain
-        if by_hits is None:
-            return gain[edges]
-        return by_hits(gated.determinant[edges], density[edges])
-
-    def _contest(
-        self,
-        gated: Gated,
-        gain: FloatArray,
-        confirmed: npt.NDArray[np.bool_],
-        edges: npt.NDArray[np.intp],
-        plots: Plots,
-    ) -> Contest | None:
-        if self.parameters.association not in SOFT:
-            return None
-        weight = gain - score.miss(self.parameters.detection_probability)
-        return Contest(gated, weight, confirmed, edges, plots)
-
-    def _look(
-        self, gated: Gated, gain: FloatArray, density: FloatArray, taken: npt.NDArray[np.intp]
-    ) -> None:
-        weight = gain - score.miss(self.parameters.detection_probability)
-        self._selection.observe(gated.track, weight, density, gated.determinant, taken)
-
-    def _choose(
-        self,
-        gated: Gated,
-        gain: FloatArray,
-        density: FloatArray,
-        confirmed: npt.NDArray[np.bool_],
-        ripe: int,
-    ) -> npt.NDArray[np.intp]:
-        weight = gain - score.miss(self.parameters.detection_probability)
-        # In a gate so wide that a false plot is likelier than the target's, a miss is the better guess.
-        # After misses a gate is kilometres wide; there a plot must be nearer than chance would bring a false one.
-        strangers = score.false_plots_nearer(gated.distance_squared, gated.determinant, density)
-        likely = np.flatnonzero((weight > 0.0) & (strangers < self.parameters.false_plots_nearer))
-        edges = likely[
-            ASSOCIATIONS[self.parameters.association](
-                GateGraph(
-                    gated.track[likely],
-                    gated.plot[likely],
-                    weight[likely],
-                    gated.distance_squared[likely],
-                    confirmed[likely],
-                )
+                density *= strange
+            pairs = Pairs.judged(
+                gated,
+                density.take(gated.plot),
+                self.parameters.detection_probability,
+                self._tracks.is_confirmed(gated.track),
             )
-        ]
-        early = gated.plot[edges] >= ripe
-        if not np.count_nonzero(early):
-            return edges
-        # A track that only plots still to come can interest waits for their competitors.
-        urgent = np.zeros(len(self._tracks), bool)
-        urgent[gated.track[gated.plot < ripe]] = True
-        return edges[urgent[gated.track[edges]]]
+            edges = pairs.ready(pairs.choose(self.parameters), ripe, len(self._tracks))
+            if len(edges):
+                out.append(self._give(plots, pairs, edges))
+                plot = gated.plot[edges]
+                unclaimed[plot] = False
+                untracked[plot[pairs.confirmed[edges]]] = False
+                self._queue.take_also(plot[plot >= ripe] - ripe)
+        self._clutter.observe(plots.range[:ripe][untracked[:ripe]])
+        if self._strength is not None:
+            self._strength.observe(plots.strength[:ripe], ~untracked[:ripe])
+        if np.count_nonzero(unclaimed[:ripe]):
+            left = unclaimed[:ripe].nonzero()[0]
+            self._open(plots[left], strange[left] if strange is not None else None, out)
+
+    def _give(self, plots: Plots, pairs: Pairs, edges: npt.NDArray[np.intp]) -> Rows:
+        gated = pairs.gated
+        self._slices += 1
+        if self._slices % _LOOKED_AT == 0:
+            own = edges[pairs.confirmed[edges]]
+            self._selection.observe(
+                gated.track, pairs.weight, pairs.density, gated.determinant, own
+            )
+        gain, by_hits = pairs.gain[edges], self._tracks.hit_gain
+        if by_hits is not None:
+            gain = by_hits(gated.determinant[edges], pairs.density[edges])
+        contest = None
+        if self.parameters.association in SOFT:
+            contest = Contest(gated, pairs.weight, pairs.confirmed, edges, plots)
+        taken = plots[gated.plot[edges]]
+        return self._tracks.update(gated.track[edges], taken, gain, self._threshold(), contest)
 
     def _open(self, plots: Plots, strange: FloatArray | None, out: list[Rows]) -> None:
         parameters, gap = self.parameters, self._tracks.longest_gap
@@ -276,9 +231,11 @@ class Tracker:
         rows = np.concatenate([_NO_ROWS, *out], dtype=TRACK) if len(out) != 1 else out[0]
         if len(rows):
             rows["time_offset"] -= self._queue.seconds(stamp)
-            rows["x"] += self.parameters.radar_x
-            rows["y"] += self.parameters.radar_y
-            rows["z"] += self.parameters.radar_z
+            for name in ("x", "y", "z"):
+                if place := getattr(self.parameters, f"radar_{name}"):
+                    rows[name] += place
+        if self._queue.now > self._watched + _WATCHED * self._rotation.period:
+            self._watched = self._queue.now
             self._watch()
         return Table(stamp, rows, SITE_FRAME)
 

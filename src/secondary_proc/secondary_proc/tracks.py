@@ -9,20 +9,20 @@ import numpy as np
 import numpy.typing as npt
 
 from radar_common.health import Health
-from radar_common.tables import TRACK
+from radar_common.tables import TRACK, EndReason
 from secondary_proc import track_table
 from secondary_proc.association.soft import Contest
-from secondary_proc.gates import Gated, gate
+from secondary_proc.gates import Gated, gate, narrow_gates
 from secondary_proc.initiation import INITIATIONS
 from secondary_proc.initiation.interface import HitGain
-from secondary_proc.motion import FloatArray, noise_density, predict_state
-from secondary_proc.opening import first_state
-from secondary_proc.passages import ENDED, TENTATIVE, judge, take_misses, take_plots
+from secondary_proc.motion import FloatArray, noise_density
+from secondary_proc.opening import opened_tracks
+from secondary_proc.passages import CONFIRMED, ENDED, TENTATIVE, judge, take_misses, take_plots
 from secondary_proc.plots import Plots
 from secondary_proc.rotation import Rotation
-from secondary_proc.schedule import passage
 from secondary_proc.smoothing import SMOOTHERS
-from secondary_proc.track_store import Columns, TrackStore
+from secondary_proc.timetable import Timetable
+from secondary_proc.track_store import PREDICTED_ROWS, Columns, TrackStore
 
 if TYPE_CHECKING:
     from secondary_proc.parameters import TrackerParameters
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 IndexArray = npt.NDArray[np.intp]
 Rows = npt.NDArray[np.void]
 
+END_REASONS = tuple(reason.name.lower().replace("_", " ") for reason in EndReason)
 FASTEST_REVISIT = 0.5
 """Turns of the antenna between two plots of one target at least."""
 
@@ -47,7 +48,7 @@ class Tracks:
         """
         self._health = health
         self._next_id = 1
-        self._soonest = np.inf
+        self._missed_until = -np.inf
         self._store = TrackStore(np.dtype(float))
         self.reconfigure(parameters, rotation)
 
@@ -66,7 +67,7 @@ class Tracks:
         self._initiation = INITIATIONS[parameters.initiation](parameters)
         self._smoother = SMOOTHERS[parameters.smoother](parameters)
         self._store.set_memory(self._smoother.memory)
-        self._schedule_all()
+        self._timetable = Timetable(self._store, parameters, rotation)
 
     def synchronise(self, now: float) -> None:
         """Date the last passages anew, after the rotation has been found again.
@@ -74,10 +75,7 @@ class Tracks:
         Args:
             now: seconds, all plots before have been processed.
         """
-        store = self._store
-        moved = predict_state(store["state"], now - store["time"])[:, :2]
-        store["crossing"][:] = self._rotation.last_passage(np.arctan2(*moved.T), now)
-        self._schedule_all()
+        self._timetable.synchronise(now)
 
     def __len__(self) -> int:
         """Number of tracks, tentative ones included."""
@@ -102,7 +100,7 @@ class Tracks:
         Returns:
             Shape (n,).
         """
-        return self._store["status"][tracks] != TENTATIVE
+        return self._store.live.status.take(tracks) != TENTATIVE
 
     def gate(self, plots: Plots) -> Gated:
         """Find the plots in the gates of the tracks that the beam may find now.
@@ -113,22 +111,28 @@ class Tracks:
         Returns:
             Pairs of track and plot.
         """
-        store, last = self._store, plots.time[-1]
+        begin, last = float(plots.time[0]), float(plots.time[-1])
+        self._timetable.catch_up(last)
+        tracks = self._store.live
         shortest = FASTEST_REVISIT * self.period
         # Where rotation and misses stand still, as after a long silence, the age alone must end a track's claims.
         longest = (self._parameters.confirmed_misses + 1) * self.period
-        expected = (store["time"] <= last - shortest) & (store["due"] >= plots.time[0] - longest)
+        expected = tracks.time <= last - shortest
+        expected &= tracks.due >= max(begin - longest, self._missed_until)
         if self._rotation.locked:
-            expected &= store["opens"] <= last
+            expected &= tracks.opens <= last
+        chosen = expected.nonzero()[0]
+        predicted = tracks.numbers[:PREDICTED_ROWS].take(chosen, axis=1)
+        sigmas = self._parameters.gate_sigmas
         gated = gate(
-            store,
-            expected.nonzero()[0],
-            plots,
-            sigmas=self._parameters.gate_sigmas,
-            noise_density=self._manoeuvre,
-            shortest=shortest,
-            narrow=self._quiet if self._parameters.gate_shape == "three_sizes" else None,
+            predicted, plots, sigmas=sigmas, noise_density=self._manoeuvre, shortest=shortest
         )
+        if self._parameters.gate_shape == "three_sizes":
+            straight = (tracks.status[chosen] == CONFIRMED) & (tracks.misses[chosen] == 0)
+            gated = narrow_gates(
+                gated, predicted, straight, plots, sigmas=sigmas, noise_density=self._quiet
+            )
+        gated.track = chosen.take(gated.track)
         self._health.drop("tracks beyond the limit of neighbours", gated.skipped)
         return gated
 
@@ -159,9 +163,11 @@ class Tracks:
         if contest is not None:
             contest.widen(columns)
         self._health.count("plots in tracks", len(tracks))
-        rows = self._after_plot(columns, threshold)
+        rows, ended = self._judged(columns, threshold)
+        self._timetable.postpone(plots.time)
         self._store.put(tracks, columns)
-        self._bury(columns)
+        if ended:
+            self._bury()
         return rows
 
     def open(
@@ -184,72 +190,75 @@ class Tracks:
         best = np.sort(np.argsort(-scores, kind="stable")[:room])
         first, second, gap, scores = first[best], second[best], gap[best], scores[best]
         count = len(first)
-        columns = first_state(first, second, self._quiet) | {
-            "id": self._next_id + np.arange(count),
-            "memory": np.zeros(count, self._smoother.memory),
-            "rule": self._initiation.opened(gap),
-            "score": scores,
-            "best": scores,
-        }
-        tracks = self._store.append(columns, count)
+        columns = opened_tracks(first, second, self._quiet, self._smoother.memory)
+        columns.id[:] = self._next_id + np.arange(count)
+        columns.rule[:] = self._initiation.opened(gap)
+        columns.score[:] = columns.best[:] = scores
         self._next_id += count
         self._health.count("tracks opened", count)
-        new = self._store.take(tracks)
-        opened = track_table.first_rows(track_table.rows(new), first)
-        judged = self._after_plot(new, threshold)
-        self._store.put(tracks, new)
-        self._bury(new)
+        opened = track_table.first_rows(track_table.rows(columns), first)
+        judged, ended = self._judged(columns, threshold)
+        self._timetable.postpone(second.time)
+        self._store.append(columns)
+        if ended:
+            self._bury()
         return np.concatenate([opened, judged], dtype=TRACK)
 
-    def miss(self, until: float) -> list[Rows]:
+    def miss(self, until: float, *, wait: float = 0.0) -> list[Rows]:
         """Count a miss for every track that the beam has passed without a plot.
 
         Args:
             until: seconds, all plots before have been processed.
+            wait: how long the first of them may wait for others, to be told at once, seconds.
 
         Returns:
             Rows of these tracks, predicted to the passage.
         """
-        store, out = self._store, []
+        self._missed_until = max(self._missed_until, until)
+        self._timetable.catch_up(until)
+        out: list[Rows] = []
+        if self._timetable.soonest + wait >= until:
+            return out
         detection, allowed = (
             self._parameters.detection_probability,
             self._parameters.confirmed_misses,
         )
-        while self._soonest < until and len(late := (store["due"] < until).nonzero()[0]):
-            columns = store.take(late)
+        while len(late := (self._store.live.due < until).nonzero()[0]):
+            columns = self._store.take(late)
             tentative = take_misses(columns, allowed, detection)
             unsure = int(np.count_nonzero(tentative))
             self._health.count("misses of confirmed tracks", len(late) - unsure)
             if unsure:
                 self._judge(columns, tentative, found=False, threshold=np.inf)
-            self._schedule(columns)
+            self._timetable.calculate(columns)
             out.append(track_table.rows(columns, at=columns.crossing, noise_density=self._quiet))
-            store.put(late, columns)
-            self._bury(columns)
-        self._soonest = store["due"].min(initial=np.inf)
+            self._store.put(late, columns)
+            self._bury()
+        self._timetable.soonest = float(self._store.live.due.min(initial=np.inf))
         return out
 
     def end_all(self) -> Rows:
-        """End every track where it was seen last.
+        """End every track where it was seen last, because time went back.
 
         Returns:
             Their rows.
         """
-        columns = self._store.take(np.arange(len(self)))
-        columns.status[:] = ENDED
-        rows = track_table.rows(columns, at=columns.time.copy(), noise_density=self._quiet)
-        self._store.put(np.arange(len(self)), columns)
-        self._bury(columns)
+        tracks = self._store.live
+        tracks.status[:], tracks.reason[:] = ENDED, EndReason.TIME_WENT_BACK
+        rows = track_table.rows(tracks, at=tracks.time.copy(), noise_density=self._quiet)
+        self._bury()
+        self._missed_until = -np.inf
         return rows
 
-    def _after_plot(self, columns: Columns, threshold: float) -> Rows:
-        self._schedule(columns)
+    def _judged(self, columns: Columns, threshold: float) -> tuple[Rows, int]:
         tentative = columns.status == TENTATIVE
         unsure = int(np.count_nonzero(tentative))
         self._health.count("plots of confirmed tracks", len(columns) - unsure)
+        ended = 0
         if unsure:
             self._judge(columns, tentative, found=True, threshold=threshold)
-        return track_table.rows(columns)
+            ended = int(np.count_nonzero(columns.status == ENDED))
+        return track_table.rows(columns), ended
 
     def _judge(
         self,
@@ -262,31 +271,11 @@ class Tracks:
         confirmed = judge(columns, tentative, self._initiation, found=found, threshold=threshold)
         self._health.count("tracks confirmed", confirmed)
 
-    def _schedule(self, columns: Columns) -> None:
-        following, margin = passage(
-            columns.state,
-            columns.covariance,
-            columns.time,
-            columns.crossing,
-            period=self.period,
-            sense=self._rotation.sense,
-            sigmas=self._parameters.gate_sigmas,
-            noise_density=self._manoeuvre,
-        )
-        columns.expected[:] = following
-        columns.opens[:] = following - margin
-        columns.due[:] = due = following + margin
-        self._soonest = min(self._soonest, due.min(initial=np.inf))
-
-    def _schedule_all(self) -> None:
-        everything = np.arange(len(self))
-        columns = self._store.take(everything)
-        self._soonest = np.inf
-        self._schedule(columns)
-        self._store.put(everything, columns)
-
-    def _bury(self, changed: Columns) -> None:
-        if np.count_nonzero(changed["status"] == ENDED):
-            ended = self._store["status"] == ENDED
-            self._health.count("tracks ended", int(np.count_nonzero(ended)))
+    def _bury(self) -> None:
+        tracks = self._store.live
+        ended = tracks.status == ENDED
+        if np.count_nonzero(ended):
+            for reason, number in enumerate(np.bincount(tracks.reason[ended]).tolist()):
+                if number:
+                    self._health.count(f"tracks ended: {END_REASONS[reason]}", number)
             self._store.remove(ended)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, cast
 
 import numpy as np
 
@@ -38,37 +37,17 @@ def gate_probabilities() -> Iterator[Row]:
 
 def _share_inside(sigmas: float) -> float:
     generator = np.random.default_rng(4)
-    track = {
-        "state": np.array([[30e3, 20e3, 120.0, -60.0]]),
-        "covariance": np.array(
-            [
-                np.kron(
-                    np.array([[90.0**2, 90.0 * 9.0], [90.0 * 9.0, 2 * 9.0**2]]),
-                    np.array([[1.0, 0.3], [0.3, 0.7]]),
-                )
-            ]
-        ),
-        "time": np.zeros(1),
-    }
+    state = np.array([30e3, 20e3, 120.0, -60.0])
+    covariance = np.kron(
+        np.array([[90.0**2, 90.0 * 9.0], [90.0 * 9.0, 2 * 9.0**2]]),
+        np.array([[1.0, 0.3], [0.3, 0.7]]),
+    )
     seconds = 4.0
     error = np.array([[150.0**2, -(60.0**2)], [-(60.0**2), 80.0**2]])
     ahead = np.concatenate([np.eye(2), seconds * np.eye(2)], axis=1)
-    total = ahead @ track["covariance"][0] @ ahead.T + error
-    centre = ahead @ track["state"][0]
-    position = generator.multivariate_normal(centre, total, _SAMPLES)
-    plots = Plots(
-        time=np.full(_SAMPLES, seconds),
-        range=np.hypot(position[:, 0], position[:, 1]),
-        azimuth=np.arctan2(position[:, 0], position[:, 1]),
-        position=position,
-        covariance=np.broadcast_to(error, (_SAMPLES, 2, 2)),
-    )
-    gated = gate(
-        cast(Any, track),
-        np.zeros(1, np.intp),
-        plots,
-        sigmas=sigmas,
-        noise_density=0.0,
-        shortest=1.0,
-    )
+    total = ahead @ covariance @ ahead.T + error
+    position = generator.multivariate_normal(ahead @ state, total, _SAMPLES)
+    plots = Plots.at(np.full(_SAMPLES, seconds), position, np.broadcast_to(error, (_SAMPLES, 2, 2)))
+    track = np.concatenate([state, covariance.ravel(), np.zeros(1)])[:, None]
+    gated = gate(track, plots, sigmas=sigmas, noise_density=0.0, shortest=1.0)
     return len(gated.plot) / _SAMPLES

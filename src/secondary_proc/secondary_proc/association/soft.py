@@ -7,7 +7,6 @@ take no part, as confirmed ones come first; components too large for the sum kee
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -84,7 +83,7 @@ class Contest:
         )
         position, covariance = taken.position.copy(), taken.covariance.copy()
         position[rows], covariance[rows] = self._mixture.position, self._mixture.covariance
-        return replace(taken, position=position, covariance=covariance)
+        return taken.moved(position, covariance)
 
     def widen(self, tracks: Columns) -> None:
         """Account for plots that disagree.
