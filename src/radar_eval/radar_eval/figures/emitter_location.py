@@ -83,8 +83,6 @@ def _draw_end(axes: Axes, scene: LocationScene, default: LocationOutcome) -> Non
             zorder=5,
         )
     )
-    reach = 1.15 * float(np.quantile(np.abs(off), 0.995))
-    axes.set_ylim(-reach, reach)
     axes.set_aspect("equal", adjustable="datalim")
     axes.xaxis.set_major_locator(MaxNLocator(4))
     axes.yaxis.set_major_locator(MaxNLocator(4))

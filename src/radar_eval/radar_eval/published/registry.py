@@ -16,7 +16,9 @@ from radar_eval.published.detection_probability import detection_probabilities
 from radar_eval.published.detkov import detkov_table
 from radar_eval.published.false_tracks import false_tracks
 from radar_eval.published.gates import gate_probabilities
+from radar_eval.published.khmarskiy import emitter_location
 from radar_eval.published.level_quantisation import level_quantisation
+from radar_eval.published.motion_models import motion_models
 from radar_eval.published.polynomial_estimation import polynomial_estimation
 from radar_eval.published.potential_accuracy import potential_accuracies
 from radar_eval.published.program_detectors import program_detectors
@@ -107,6 +109,9 @@ RESULTS = {
             alpha_beta_dynamics,
         ),
         PublishedResult(
+            "kuzmin-4-motion", f"{_BOOK}, § 4.2, (4.3)-(4.8), figure 4.1", motion_models
+        ),
+        PublishedResult(
             "kuzmin-4-false-tracks",
             f"{_BOOK}, § 4.3.3 and 4.3.4, (4.10), (4.16)-(4.28), figures 4.2 and 4.3",
             false_tracks,
@@ -131,6 +136,11 @@ RESULTS = {
             "kuzmin-4-selection",
             f"{_BOOK}, § 4.7.3-4.7.5, (4.140)-(4.153), figures 4.26-4.29",
             selections,
+        ),
+        PublishedResult(
+            "khmarskiy-filters",
+            "Khmarskiy, Sushchinskiy 2015, bearings of a moving direction finder",
+            emitter_location,
         ),
         PublishedResult(
             "cfar-thresholds",

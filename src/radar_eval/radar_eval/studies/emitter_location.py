@@ -107,7 +107,7 @@ def study_emitter_location(folder: Path, runs: int = RUNS) -> dict[str, Any]:
     """
     outcomes = compare_filters(runs)
     figure = draw_emitter_location(scenes(), outcomes)
-    (folder / PICTURE).write_bytes(as_png(figure))
+    (folder / PICTURE).write_bytes(as_png(figure, dpi=120))
     return {
         "runs": runs,
         "filters": [outcome.as_dict() for outcome in outcomes],

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from bearing_tracker.emitters.interface import EmitterFilter
+from bearing_tracker.emitters import Belief, EmitterFilter
 from radar_eval.studies.emitter_location_scenes import LocationScene
 
 FloatArray = npt.NDArray[np.float64]
@@ -72,7 +73,12 @@ class LocationOutcome:
 
 
 def try_filter(
-    scene: LocationScene, name: str, chosen: EmitterFilter, runs: int, seed: int
+    scene: LocationScene,
+    name: str,
+    chosen: EmitterFilter,
+    runs: int,
+    seed: int,
+    begun: Callable[[Belief], Belief] | None = None,
 ) -> LocationOutcome:
     """Run a filter.
 
@@ -82,6 +88,7 @@ def try_filter(
         chosen: the filter.
         runs: number of them; each has a prior and bearing errors of its own.
         seed: of both; all filters see the same.
+        begun: changes what the filter believes after the first bearing; None leaves it.
 
     Returns:
         Errors and what they are against the bound.
@@ -92,6 +99,8 @@ def try_filter(
     heard = np.ones(runs, dtype=bool)
     places = np.broadcast_to(scene.observer[:, np.newaxis], (len(scene.observer), runs, 2))
     belief = chosen.start(bearings[0], std, places[0], prior)
+    if begun is not None:
+        belief = begun(belief)
     estimates, looks = [chosen.estimate(belief)], [0]
     last_look = len(places) - 1
     every = max(last_look // _CURVE, 1)
