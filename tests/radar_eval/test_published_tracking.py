@@ -12,6 +12,7 @@ from radar_eval.published.registry import RESULTS
 from radar_eval.published.result import to_digits
 
 NAMES = {
+    "kuzmin-4-motion": 14,
     "kuzmin-4-gates": 35,
     "kuzmin-4-selection": 55,
     "kuzmin-4-track-parameters": 90,
