@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 
 from radar_common.tables import TrackStatus
+from secondary_proc.calculators.track_detection import track_detection
 from secondary_proc.expected_quality import (
     FalsePlots,
     correct_selection,
     false_tracks_handed_over,
     gate_probability,
 )
+from secondary_proc.initiation import DROP_RULES
 from secondary_proc.parameters import TrackerParameters
 from secondary_proc.tracker import Tracker
 
@@ -31,26 +33,91 @@ FALSE = FalsePlots(
 )
 
 
-def confirmed_among_false_plots(scene, run, **parameters):
+def confirmed_among_false_plots(scene, run, scans=SCANS, **parameters):
+    """Confirmed tracks of a scene of false plots alone, each ended by its first miss."""
     world = scene(seed=21)
-    world.clutter(FALSE.per_scan, end=SCANS * 4.0, nearest=FALSE.nearest, farthest=FALSE.farthest)
-    tracker = Tracker(TrackerParameters(acceleration=0.0, manoeuvre_acceleration=0.0, **parameters))
+    world.clutter(FALSE.per_scan, end=scans * 4.0, nearest=FALSE.nearest, farthest=FALSE.farthest)
+    settings = {"smoother": "kalman", "acceleration": 0.0, "manoeuvre_acceleration": 0.0}
+    tracker = Tracker(TrackerParameters(**(settings | parameters)))
     rows, _ = run(tracker, world.messages(sectors=8))
     return len(set(rows["id"][rows["status"] == TrackStatus.CONFIRMED].tolist()))
 
 
-def test_plain_three_of_four_hands_over_as_many_false_tracks_as_calculated(scene, run):
-    expected = SCANS * false_tracks_handed_over(FALSE)
-    assert expected > 50.0
-    found = confirmed_among_false_plots(scene, run, initiation="l_of_m", confirmed_misses=1)
-    # Branches of one start are confirmed together now and then, which widens the Poisson spread a little.
-    assert abs(found - expected) < 4.0 * np.sqrt(1.3 * expected)
+def hold_to_the_calculation(scene, run, rule, scans):
+    hits, window, misses = rule
+    expected = scans * false_tracks_handed_over(FALSE, hits, window, misses)
+    found = confirmed_among_false_plots(
+        scene,
+        run,
+        scans,
+        initiation="l_of_m",
+        confirm_hits=hits,
+        confirm_window=window,
+        drop_rule="rule" if misses is None else "misses",
+        tentative_misses=misses or 2,
+        confirmed_misses=1,
+    )
+    # Branches of one start are confirmed together now and then, which widens the Poisson spread a little; after one
+    # turn the antenna's period is known, and the last candidates are cut off.
+    assert abs(found - expected) < 4.0 * np.sqrt(1.3 * expected) + 3.0 * expected / scans
 
 
-def test_the_likelihood_ratio_keeps_its_promise(scene, run):
-    found = confirmed_among_false_plots(scene, run, false_tracks_per_hour=60.0)
-    promised = 60.0 * SCANS * 4.0 / 3600.0
+@pytest.mark.parametrize(("rule", "scans"), [((2, 2, None), 20), ((3, 4, None), 60)])
+def test_rules_hand_over_as_many_false_tracks_as_calculated(scene, run, rule, scans):
+    hold_to_the_calculation(scene, run, rule, scans)
+
+
+@pytest.mark.study
+@pytest.mark.parametrize(
+    "rule", [(2, 2, None), (2, 3, None), (3, 3, None), (3, 4, None), (3, 5, None), (3, 5, 2)]
+)
+def test_every_rule_hands_over_as_many_false_tracks_as_calculated(scene, run, rule):
+    hold_to_the_calculation(scene, run, rule, SCANS)
+
+
+def hold_to_the_promise(scene, run, name, scans, rate, **parameters):
+    found = confirmed_among_false_plots(
+        scene, run, scans, initiation=name, false_tracks_per_hour=rate, **parameters
+    )
+    promised = rate * scans * 4.0 / 3600.0
     assert found <= promised + 4.0 * np.sqrt(promised)
+
+
+@pytest.mark.parametrize("name", ["likelihood_ratio", "wald"])
+def test_tests_of_the_ratio_keep_their_promise(scene, run, name):
+    hold_to_the_promise(scene, run, name, 50, 180.0)
+
+
+@pytest.mark.study
+@pytest.mark.parametrize("name", ["likelihood_ratio", "wald"])
+@pytest.mark.parametrize("rate", [10.0, 60.0, 600.0])
+@pytest.mark.parametrize("drop_rule", DROP_RULES)
+def test_tests_of_the_ratio_keep_any_promise(scene, run, name, rate, drop_rule):
+    hold_to_the_promise(scene, run, name, SCANS, rate, drop_rule=drop_rule)
+
+
+@pytest.mark.parametrize(("hits", "window"), [(3, 3), (3, 4)])
+def test_targets_are_confirmed_as_soon_as_calculated(scene, run, hits, window):
+    detection, targets, scans = 0.8, 60, 12
+    world = scene(seed=5, detection=detection)
+    for bearing in np.linspace(0.0, 2 * np.pi, targets, endpoint=False):
+        outward = np.array([np.sin(bearing), np.cos(bearing)])
+        world.fly(60e3 * outward, 100.0 * outward, begin=0.0, end=4.0 * scans + 1.0)
+    # Plots too far away to matter tell the antenna's period before the targets come.
+    world.clutter(40.0, begin=-12.0, end=0.0, nearest=150e3, farthest=200e3)
+    rule = {"initiation": "l_of_m", "confirm_hits": hits, "confirm_window": window}
+    tracker = Tracker(TrackerParameters(scan_period=4.0, **rule))
+    rows, times = run(tracker, world.messages(sectors=8))
+    confirmed = rows["status"] == TrackStatus.CONFIRMED
+    expected = track_detection(np.full(scans, detection), hits, window)
+    bearing = np.arctan2(rows["x"], rows["y"])[confirmed]
+    target = np.rint(bearing / (2 * np.pi) * targets).astype(int) % targets
+    first = np.full(targets, np.inf)
+    np.minimum.at(first, target, times[confirmed])
+    for scan in range(2, scans):
+        found = np.mean(first < 4.0 * (scan + 1))
+        share = expected[scan]
+        assert abs(found - share) < 4.0 * np.sqrt(share * (1.0 - share) / targets) + 1e-9, scan
 
 
 def test_equal_small_gates_give_the_formula_of_the_book():

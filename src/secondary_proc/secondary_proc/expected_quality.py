@@ -8,7 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from radar_common.frames import TWO_PI, enu_covariance
-from secondary_proc.motion import FloatArray, predict_position_covariance, two_point_state
+from secondary_proc.calculators.rule_chain import CONFIRMED, IDLE, StateArray, rule_chain
+from secondary_proc.motion import (
+    FloatArray,
+    predict_covariance,
+    predict_position_covariance,
+    two_point_state,
+)
+from secondary_proc.smoothing import joseph_update
 
 _STEPS = 200
 
@@ -80,28 +87,86 @@ class FalsePlots:
         return self.per_scan / (self.farthest - self.nearest) / (TWO_PI * ranges)
 
 
-def false_tracks_handed_over(false: FalsePlots) -> float:
-    """Tracks of false plots alone that the rule 3/4 confirms.
+def false_tracks_handed_over(
+    false: FalsePlots, hits: int = 3, window: int = 4, drop_misses: int | None = None
+) -> float:
+    """Tracks of false plots alone that a rule l/m confirms.
 
-    The paths 111, 1101 and 1011 of Kuzmin 1967, (4.25), each gate with its own area as the tracker draws it, for a
-    density so low that few gates hold a plot.
+    The paths of the rule's automaton from the first plot to confirmation, as in Kuzmin 1967, (4.25), but each gate with
+    its own area as the tracker draws it, and every plot of the annulus as a candidate of its own (§ 4.3.1), for a
+    density so low that candidates do not take each other's plots.
 
     Args:
         false: the plots and the gates.
+        hits: plots needed, l, at least 2.
+        window: scans in which they must fall, m.
+        drop_misses: misses in a row after which a candidate is given up; None leaves it to the rule alone.
 
     Returns:
         Confirmed false tracks per scan.
+
+    Raises:
+        ValueError: there is no such rule.
     """
+    if hits < 2:
+        raise ValueError("a track needs two plots at least")
+    chain = rule_chain(hits, window, drop_misses)
     edges = np.linspace(false.nearest, false.farthest, _STEPS + 1)
-    ranges = (edges[1:] + edges[:-1]) / 2.0
-    density = false.density(ranges)
-    annulus = {gap: density * _annulus(false, ranges, gap) for gap in (1, 2)}
-    near = density * _gate(false, ranges, first_gap=1, wait=1)
-    after_miss = density * _gate(false, ranges, first_gap=1, wait=2)
-    after_gap = density * _gate(false, ranges, first_gap=2, wait=1)
-    expected = annulus[1] * (near + np.exp(-near) * after_miss)
-    expected += np.exp(-annulus[1]) * annulus[2] * after_gap
+    search = _Search(false, (edges[1:] + edges[:-1]) / 2.0, chain)
+    # The few that live longer add nothing that a trial would show; the book stops at one window.
+    longest = 2 * window
+    expected = np.zeros(_STEPS)
+    alone = np.ones(_STEPS)
+    state, gap = int(chain[IDLE, 1]), 1
+    while state != IDLE:
+        candidates = search.density * _annulus(false, search.ranges, gap)
+        track = search.opened(gap)
+        confirmed = search.confirmed(int(chain[state, 1]), track, 1, longest - gap)
+        expected += alone * candidates * confirmed
+        # A first plot that found its second in one turn takes none in a later one.
+        alone = alone * np.exp(-candidates)
+        state, gap = int(chain[state, 0]), gap + 1
     return float(false.per_scan * expected.mean())
+
+
+class _Search:
+    """Candidates among false plots, at all ranges at once."""
+
+    def __init__(self, false: FalsePlots, ranges: FloatArray, chain: StateArray) -> None:
+        each = np.ones(len(ranges))
+        self._false, self._chain, self._each = false, chain, each
+        self.ranges = ranges
+        self.density = false.density(ranges)
+        self._error = enu_covariance(
+            ranges, 0.0 * each, false.range_std * each, false.azimuth_std * each
+        )
+
+    def opened(self, gap: int) -> FloatArray:
+        """Covariance of a candidate's state after two plots, so many turns apart."""
+        place = np.zeros((len(self._each), 2))
+        seconds = gap * self._false.period * self._each
+        return two_point_state(
+            place, self._error, place, self._error, seconds, self._false.quiet_density
+        )[1]
+
+    def confirmed(self, state: int, covariance: FloatArray, wait: int, scans: int) -> FloatArray:
+        """Probability that a candidate is confirmed yet, its last plot so many turns ago, within some scans."""
+        if state in (IDLE, CONFIRMED) or not scans:
+            return self._each * (state == CONFIRMED)
+        seconds = wait * self._false.period * self._each
+        gate = self._error + predict_position_covariance(
+            covariance, seconds, self._false.gate_density
+        )
+        area = np.pi * self._false.sigmas**2 * np.sqrt(np.linalg.det(gate))
+        found = -np.expm1(-self.density * area)
+        moved = predict_covariance(covariance, seconds, self._false.quiet_density)
+        gain = moved[:, :, :2] @ np.linalg.inv(moved[:, :2, :2] + self._error)
+        after = joseph_update(moved, gain, self._error)
+        miss, hit = self._chain[state].tolist()
+        return np.asarray(
+            found * self.confirmed(hit, after, 1, scans - 1)
+            + (1.0 - found) * self.confirmed(miss, covariance, wait + 1, scans - 1)
+        )
 
 
 def _annulus(false: FalsePlots, ranges: FloatArray, gap: int) -> FloatArray:
@@ -110,16 +175,3 @@ def _annulus(false: FalsePlots, ranges: FloatArray, gap: int) -> FloatArray:
     across = 2.0 * (ranges[:, None] * false.azimuth_std) ** 2 * np.sin(direction) ** 2
     radius = false.maximum_speed * gap * false.period + false.sigmas * np.sqrt(along + across)
     return np.pi * np.mean(radius**2, axis=1)
-
-
-def _gate(false: FalsePlots, ranges: FloatArray, *, first_gap: int, wait: int) -> FloatArray:
-    each = np.ones(len(ranges))
-    error = enu_covariance(ranges, 0.0 * each, false.range_std * each, false.azimuth_std * each)
-    place = np.zeros((len(ranges), 2))
-    _, covariance = two_point_state(
-        place, error, place, error, first_gap * false.period * each, false.quiet_density
-    )
-    expected = error + predict_position_covariance(
-        covariance, wait * false.period * each, false.gate_density
-    )
-    return np.pi * false.sigmas**2 * np.sqrt(np.linalg.det(expected))
