@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bearing_tracker.bearing_association import Directions
-from bearing_tracker.fusion import Belief, Output, Reading, join
+from bearing_tracker.fusion import Belief, Motion, Output, Reading, join
 from bearing_tracker.fusion_model import FusionModel
 from radar_common.frames import wrap_pi, wrap_two_pi
 from radar_common.tables import BEARING, CHANNEL_STATES, BearingChannel
@@ -33,6 +33,9 @@ TARGET = np.dtype(
         ("range", "<f8"),  # m; NaN while the radar has never seen it
         ("hits", "<i8"),
         ("confirmed", "?"),
+        ("mean", "<f8", (2,)),  # azimuth in [-pi, pi) and its rate, rad and rad/s
+        ("covariance", "<f8", (2, 2)),
+        ("health", "<f8", (2, CHANNEL_STATES)),  # probability of each state of either channel
         ("twin", "<i8"),  # id of the target that looks like the same, 0 for none
         ("agreed", "<i8"),  # times in a row that it did
     ]
@@ -76,15 +79,11 @@ class FusedTargets:
             (directions, jammed): azimuths with their deviations, without the error of a bearing; probability that the
             active channel is jammed for the target, shape (n,).
         """
-        seconds = np.maximum(time - self.columns["time"][which], 0.0)
-        motion = self.model.motion(seconds, self.columns["range"][which])
-        estimate = self.model.filter.estimate(
-            self.model.filter.step(self._belief.take(which), motion)
-        )
-        directions = Directions(
-            wrap_two_pi(estimate.mean[:, 0]), np.sqrt(estimate.covariance[:, 0, 0])
-        )
-        return directions, 1.0 - estimate.active[:, 0]
+        part = self.columns[which]
+        seconds = np.maximum(time - part["time"], 0.0)
+        mean, covariance, _ = self._predicted(part, seconds)
+        clear = self.model.active_clear(part["health"][:, BearingChannel.ACTIVE, 0], seconds)
+        return Directions(wrap_two_pi(mean[:, 0]), np.sqrt(covariance[:, 0, 0])), 1.0 - clear
 
     def open(self, sightings: Rows, ids: IdArray) -> IndexArray:
         """Begin targets.
@@ -106,7 +105,7 @@ class FusedTargets:
         self._belief = join([self._belief, started]) if before else started
         self.columns = np.concatenate([self.columns, columns])
         which = np.arange(before, len(self))
-        self._confirm(which)
+        self._remember(which, started)
         return which
 
     def update(self, which: IndexArray, sightings: Rows) -> None:
@@ -122,19 +121,17 @@ class FusedTargets:
         part, channel = self.columns[which], int(sightings["channel"][0])
         seconds = np.maximum(sightings["time"] - part["time"], 0.0)
         part["range"] = np.where(np.isnan(sightings["range"]), part["range"], sightings["range"])
-        motion = self.model.motion(seconds, part["range"])
-        belief = self._belief.take(which)
-        predicted = self.model.filter.estimate(self.model.filter.step(belief, motion))
+        mean, covariance, motion = self._predicted(part, seconds)
         # Within a look a bearing may be older than the target's last; the rate carries it over.
         late = part["time"] + seconds - sightings["time"]
-        azimuth = sightings["azimuth"] + predicted.mean[:, 1] * late
+        azimuth = sightings["azimuth"] + mean[:, 1] * late
         variance = sightings["azimuth_std"] ** 2
         reading = Reading(azimuth[:, None], variance[:, None, None], np.ones(len(which), bool))
         readings = (reading, None) if channel == BearingChannel.ACTIVE else (None, reading)
-        updated = self.model.filter.step(belief, motion, *readings)
+        updated = self.model.filter.step(self._belief.take(which), motion, *readings)
         self._belief = self._belief.put(which, updated)
-        innovation = wrap_pi(azimuth - predicted.mean[:, 0])
-        gate = self._parameters.gate_sigmas * np.sqrt(predicted.covariance[:, 0, 0] + variance)
+        innovation = wrap_pi(azimuth - mean[:, 0])
+        gate = self._parameters.gate_sigmas * np.sqrt(covariance[:, 0, 0] + variance)
         # Noise falls to both sides; a bearing that belongs to something else stays on one.
         side = np.where(np.abs(innovation) > gate, np.sign(innovation), 0.0).astype(np.int64)
         before = part["misfits"][:, channel]
@@ -143,7 +140,7 @@ class FusedTargets:
         part["time"] += seconds
         part["heard"][:, channel] = part["time"]
         self.columns[which] = part
-        self._confirm(which)
+        self._remember(which, updated)
 
     def rows(self, which: IndexArray) -> Rows:
         """Write targets as rows of the table.
@@ -154,21 +151,16 @@ class FusedTargets:
         Returns:
             dtype BEARING, shape (n,); `time_offset` still holds the pipeline's time.
         """
-        output: Output = "map" if self._parameters.output == "map" else "mmse"
-        estimate = self.model.filter.estimate(self._belief.take(which), output)
+        part = self.columns[which]
         rows = np.zeros(len(which), BEARING)
-        rows["azimuth"], rows["rate"] = wrap_two_pi(estimate.mean[:, 0]), estimate.mean[:, 1]
-        rows["azimuth_std"] = np.sqrt(estimate.covariance[:, 0, 0])
-        rows["rate_std"] = np.sqrt(estimate.covariance[:, 1, 1])
+        rows["azimuth"], rows["rate"] = wrap_two_pi(part["mean"][:, 0]), part["mean"][:, 1]
+        rows["azimuth_std"] = np.sqrt(part["covariance"][:, 0, 0])
+        rows["rate_std"] = np.sqrt(part["covariance"][:, 1, 1])
         rows["elevation"] = rows["elevation_std"] = np.nan
-        rows["time_offset"] = self.columns["time"][which]
-        rows["id"], rows["channel"] = self.columns["id"][which], BearingChannel.FUSED
-        for name, told in (
-            ("active_health", estimate.active),
-            ("passive_health", estimate.passive),
-        ):
-            rows[name] = np.nan
-            rows[name][:, : told.shape[1]] = told[:, :CHANNEL_STATES]
+        rows["time_offset"] = part["time"]
+        rows["id"], rows["channel"] = part["id"], BearingChannel.FUSED
+        rows["active_health"] = part["health"][:, BearingChannel.ACTIVE]
+        rows["passive_health"] = part["health"][:, BearingChannel.PASSIVE]
         return rows
 
     def disturbed(self, channel: int) -> float:
@@ -182,12 +174,10 @@ class FusedTargets:
         """
         columns = self.columns
         silence = columns["time"] - columns["heard"][:, channel]
-        which = np.flatnonzero(columns["confirmed"] & (silence <= self._parameters.end_after))
-        if not len(which):
+        reported = columns["confirmed"] & (silence <= self._parameters.end_after)
+        if not reported.any():
             return np.nan
-        estimate = self.model.filter.estimate(self._belief.take(which))
-        told = estimate.active if channel == BearingChannel.ACTIVE else estimate.passive
-        return float(1.0 - told[:, 0].mean())
+        return float(1.0 - columns["health"][reported, channel, 0].mean())
 
     def of_identities(self, ids: IdArray, channel: int) -> IndexArray:
         """Find the targets that identities of a sensor belong to.
@@ -217,8 +207,24 @@ class FusedTargets:
         self.columns = self.columns[~gone]
         self._belief = self._belief.take(~gone)
 
-    def _confirm(self, which: IndexArray) -> None:
-        columns = self.columns
-        tracked = columns["partner"][which, BearingChannel.ACTIVE] != 0
-        enough = columns["hits"][which] >= self._parameters.confirm_hits
-        columns["confirmed"][which] |= tracked | enough
+    def _predicted(self, part: Rows, seconds: FloatArray) -> tuple[FloatArray, FloatArray, Motion]:
+        # The motion is the same under every hypothesis, so the moments of their mixture move like one state.
+        motion = self.model.motion(seconds, part["range"])
+        turned = np.swapaxes(motion.transition, 1, 2)
+        mean = (motion.transition @ part["mean"][..., None])[..., 0]
+        return mean, motion.transition @ part["covariance"] @ turned + motion.noise, motion
+
+    def _remember(self, which: IndexArray, belief: Belief) -> None:
+        output: Output = "map" if self._parameters.output == "map" else "mmse"
+        estimate = self.model.filter.estimate(belief, output)
+        part = self.columns[which]
+        part["mean"], part["covariance"], part["health"] = (
+            estimate.mean,
+            estimate.covariance,
+            np.nan,
+        )
+        for channel, told in enumerate((estimate.active, estimate.passive)):
+            part["health"][:, channel, : told.shape[1]] = told
+        tracked = part["partner"][:, BearingChannel.ACTIVE] != 0
+        part["confirmed"] |= tracked | (part["hits"] >= self._parameters.confirm_hits)
+        self.columns[which] = part

@@ -61,6 +61,19 @@ class FusionModel:
         """Share of time that the active and the passive channel are disturbed by design."""
         return self._chains[0][0][1], self._chains[1][0][1]
 
+    def active_clear(self, clear: FloatArray, seconds: FloatArray) -> FloatArray:
+        """Probability that the active channel is clear a while later.
+
+        Args:
+            clear: probability now, shape (n,).
+            seconds: shape (n,).
+
+        Returns:
+            Shape (n,).
+        """
+        shares, memory = self._chains[0]
+        return shares[0] + (clear - shares[0]) * np.exp(-seconds / memory)
+
     def start(self, azimuth: FloatArray, std: FloatArray) -> Belief:
         """Begin with one bearing of each target.
 

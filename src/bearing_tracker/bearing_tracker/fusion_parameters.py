@@ -18,9 +18,9 @@ class FusionParameters(Parameters):
     """Parameters of the fusion of angle channels."""
 
     active_input: str = parameter(
-        "track_plots",
-        "what the active channel measures: the plot that each confirmed track has just taken, whose errors are "
-        "independent; the track's smoothed position, whose errors last; or plots, each of which may be a target",
+        "tracks",
+        "what the active channel measures: smoothed position of each confirmed track, the plot that it has just "
+        "taken, or plots without regard to tracks, each of which may be a target",
         choices=ACTIVE_INPUTS,
         read_only=True,
     )
@@ -153,7 +153,7 @@ class FusionParameters(Parameters):
         high=LARGEST_AZIMUTH_STD,
     )
     track_inflation: float = parameter(
-        2.0,
+        1.5,
         "times that the error of a smoothed track counts, because it lasts over several scans (input tracks)",
         low=1.0,
         high=100.0,

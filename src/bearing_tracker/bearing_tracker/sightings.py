@@ -172,7 +172,8 @@ def _across(covariance: npt.NDArray[np.float32], east: FloatArray, north: FloatA
     matrix = covariance.reshape(-1, 4, 4)[:, :2, :2].astype(float)
     direction = np.stack([north, -east], axis=1) / np.maximum(np.hypot(east, north), 1.0)[:, None]
     variance = np.einsum("ni,nij,nj->n", direction, matrix, direction)
-    definite = (matrix[:, 0, 0] > 0.0) & (np.linalg.det(matrix) > 0.0)
+    determinant = matrix[:, 0, 0] * matrix[:, 1, 1] - matrix[:, 0, 1] * matrix[:, 1, 0]
+    definite = (matrix[:, 0, 0] > 0.0) & (determinant > 0.0)
     across = np.sqrt(np.where(definite & (variance > 0.0), variance, 0.0))
     # A deviation of zero tells nothing, and the default will be taken.
     return across / np.maximum(np.hypot(east, north), 1.0)

@@ -98,7 +98,9 @@ class Timeline:
         """
         late = rows["time"] <= self.done
         self._health.drop("sightings too late to be put in order", int(np.count_nonzero(late)))
-        rows = np.concatenate([self._waiting, rows[~late]])
+        if not len(rows):
+            return
+        rows = np.concatenate([self._waiting, rows[~late]], dtype=SIGHTING)
         order = np.lexsort((rows["azimuth"], rows["id"], rows["channel"], rows["time"]))
         rows = rows[order]
         same = np.zeros(len(rows), bool)
