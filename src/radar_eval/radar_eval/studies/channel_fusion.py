@@ -57,7 +57,7 @@ def measure_channel_fusion(folder: Path, runs: int) -> dict[str, Any]:
         for name in progress(_FILTERS, "filters", unit="filter")
     }
     figure = draw_channel_fusion(REGRESSION, trials, followed, _SHOWN)
-    (folder / PICTURE).write_bytes(as_png(figure))
+    (folder / PICTURE).write_bytes(as_png(figure, dpi=120))
     return {
         "runs": runs,
         "rms": {name: _errors(answers, trials) for name, answers in followed.items()},
