@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from heapq import merge
 from typing import Any
 
@@ -50,6 +50,7 @@ class ImportOptions:
 
     Attributes:
         primary: take the primary positions of combined reports instead of the reports' own.
+        keep_offset: leave the constant offset of primary from secondary positions in.
         radar: SAC * 256 + SIC of the radar to take; None if the recording holds only one.
         nearest: m, nothing nearer is taken.
         false_plots: mean number of false plots to add to a scan.
@@ -59,6 +60,7 @@ class ImportOptions:
     """
 
     primary: bool = False
+    keep_offset: bool = False
     radar: int | None = None
     nearest: float = 0.0
     false_plots: float = 0.0
@@ -202,7 +204,8 @@ def _positions(
     if not combined.any():
         raise RecordingError("no report holds a primary position and a Mode S address")
     offset = estimate_offset(reports[combined])
-    ranges, azimuths = primary_positions(reports, offset)
+    removed = replace(offset, range_bias=0.0, azimuth_bias=0.0) if options.keep_offset else offset
+    ranges, azimuths = primary_positions(reports, removed)
     return np.where(combined, ranges, np.nan), azimuths, offset
 
 

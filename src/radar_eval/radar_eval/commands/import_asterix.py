@@ -42,6 +42,11 @@ def _parser() -> argparse.ArgumentParser:
         "removed; the secondary position becomes the truth",
     )
     parser.add_argument(
+        "--keep-offset",
+        action="store_true",
+        help="leave that offset in, for `register` to find and the tracker to subtract",
+    )
+    parser.add_argument(
         "--false-plots", type=not_negative, default=0.0, metavar="N", help="to add a scan"
     )
     parser.add_argument("--seed", type=int, default=0, help="of the false plots (default 0)")
@@ -78,6 +83,7 @@ def _import(arguments: argparse.Namespace) -> int:
     recording = decode_records(blocks, health)
     options = asterix_import.ImportOptions(
         primary=arguments.psr,
+        keep_offset=arguments.keep_offset,
         radar=arguments.radar,
         nearest=arguments.min_range * NAUTICAL_MILE,
         false_plots=arguments.false_plots,
@@ -88,12 +94,12 @@ def _import(arguments: argparse.Namespace) -> int:
     with writer:
         for topic, table in progress(asterix_import.messages(imported), "writing", unit="messages"):
             writer.write(topic, table)
-    for line in _summary(imported, health):
+    for line in _summary(imported, health, "kept" if arguments.keep_offset else "removed"):
         print(line, file=sys.stdout)
     return 0
 
 
-def _summary(imported: asterix_import.ImportedRecording, health: Health) -> list[str]:
+def _summary(imported: asterix_import.ImportedRecording, health: Health, what: str) -> list[str]:
     lines = [
         f"{health.counts['target reports']} target reports, scan period "
         f"{imported.rotation.period:.4f} s",
@@ -103,7 +109,7 @@ def _summary(imported: asterix_import.ImportedRecording, health: Health) -> list
     if imported.offset is not None:
         offset = imported.offset
         lines.append(
-            f"primary minus secondary, removed: {offset.range_bias:.1f} m, "
+            f"primary minus secondary, {what}: {offset.range_bias:.1f} m, "
             f"{np.degrees(offset.azimuth_bias):.4f} deg; scatter from report to report "
             f"{offset.range_std:.1f} m, "
             f"{np.degrees(offset.azimuth_std):.3f} deg (1 sigma)"

@@ -18,7 +18,14 @@ from radar_eval.figures.tracking import draw_tracking
 from radar_eval.figures.tracking_consistency import draw_consistency
 from radar_eval.metrics.consistency import PLOT_DEGREES, STATE_DEGREES, bounds_of_mean
 from radar_eval.studies.tracking_consistency import ConsistencyRun, mean_over_scans, run_matched
-from radar_eval.studies.tracking_scores import contestants, judge, score_row, simulate, track
+from radar_eval.studies.tracking_scores import (
+    Contestant,
+    contestants,
+    judge,
+    score_row,
+    simulate,
+    track,
+)
 from radar_eval.studies.tracking_stone_soup import require_stone_soup
 from radar_sim.plot_scenes import PLOT_SCENES, plot_scene
 from secondary_proc.parameters import TrackerParameters
@@ -57,7 +64,7 @@ def study_tracking(folder: Path) -> dict[str, Any]:
     """
     require_stone_soup()
     with ProcessPoolExecutor() as pool:
-        jobs = pool.map(partial(compare, scans=_SCANS, seed=_SEED), PLOT_SCENES)
+        jobs = pool.map(partial(compare, scans=_SCANS, seed=_SEED, who=contestants()), PLOT_SCENES)
         done = progress(jobs, "scenes", total=len(PLOT_SCENES), unit="scene")
         rows = [row for rows_of_one in done for row in rows_of_one]
         default = TrackerParameters().smoother
@@ -76,14 +83,16 @@ def study_tracking(folder: Path) -> dict[str, Any]:
     }
 
 
-def compare(scene: str, *, scans: int, seed: int, peers: bool = True) -> list[dict[str, Any]]:
+def compare(
+    scene: str, *, scans: int, seed: int, who: Sequence[Contestant]
+) -> list[dict[str, Any]]:
     """Let all trackers work on the same plots.
 
     Args:
         scene: key of PLOT_SCENES.
         scans: turns of the antenna.
         seed: of everything random.
-        peers: whether Stone Soup's trackers take part.
+        who: takes part.
 
     Returns:
         A row for each tracker.
@@ -91,7 +100,7 @@ def compare(scene: str, *, scans: int, seed: int, peers: bool = True) -> list[di
     world = plot_scene(scene, scans=scans)
     plots, truth = simulate(world, seed)
     rows = []
-    for contestant in contestants(peers=peers):
+    for contestant in who:
         seconds, tracks = track(contestant, world, plots)
         scores = score_row(judge(world, plots, truth, tracks), seconds)
         rows.append({"scene": scene, "tracker": contestant.name, **scores})

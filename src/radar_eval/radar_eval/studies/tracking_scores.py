@@ -42,11 +42,8 @@ class Contestant:
     changes: dict[str, Any] | None = None
 
 
-def contestants(*, peers: bool = True) -> list[Contestant]:
+def contestants() -> list[Contestant]:
     """List who takes part.
-
-    Args:
-        peers: whether Stone Soup's trackers do.
 
     Returns:
         Ours as it is by default, then with every other smoother and association, then the peers.
@@ -59,7 +56,7 @@ def contestants(*, peers: bool = True) -> list[Contestant]:
         for name in names
         if name != getattr(default, kind)
     ]
-    return ours + [Contestant(name) for name in PEERS if peers]
+    return ours + [Contestant(name) for name in PEERS]
 
 
 def simulate(scene: PlotScene, seed: int) -> tuple[list[Table], list[Table]]:
