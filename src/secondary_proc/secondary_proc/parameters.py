@@ -123,6 +123,20 @@ class TrackerParameters(SmoothingParameters):
     minimum_azimuth_std: float = parameter(
         0.0002, "smallest azimuth error believed of a plot", unit="rad", low=1e-6, high=0.5
     )
+    range_bias: float = parameter(
+        0.0,
+        "ranges of all plots are too long by this, and it is subtracted; `register` measures it",
+        unit="m",
+        low=-10000.0,
+        high=10000.0,
+    )
+    azimuth_bias: float = parameter(
+        0.0,
+        "azimuths of all plots are too large by this, and it is subtracted; `register` measures it",
+        unit="rad",
+        low=-0.5,
+        high=0.5,
+    )
     maximum_range: float = parameter(
         500e3, "plots farther away are dropped", unit="m", low=100.0, high=5e6
     )
@@ -135,9 +149,28 @@ class TrackerParameters(SmoothingParameters):
     maximum_tracks: int = parameter(
         20000, "tracks kept at most, tentative ones included", low=10, high=1000000
     )
+    state_file: str = parameter(
+        "",
+        "file in which the node keeps its tracks and from which it goes on after a restart, also after a kill; empty "
+        "for none",
+        read_only=True,
+    )
+    state_interval: float = parameter(
+        2.0,
+        "between two writings of state_file, by the stamps of the messages",
+        unit="s",
+        low=0.0,
+        high=3600.0,
+        read_only=True,
+    )
     radar_x: float = parameter(0.0, "radar's place in the map, east", unit="m", low=-1e7, high=1e7)
     radar_y: float = parameter(0.0, "radar's place in the map, north", unit="m", low=-1e7, high=1e7)
     radar_z: float = parameter(0.0, "radar's place in the map, up", unit="m", low=-1e5, high=1e5)
+
+    @property
+    def bias(self) -> tuple[float, float]:
+        """range_bias and azimuth_bias."""
+        return self.range_bias, self.azimuth_bias
 
     def check(self) -> None:
         """Refuse rules that nothing can satisfy."""

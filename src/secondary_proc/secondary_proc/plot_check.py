@@ -83,7 +83,7 @@ class PlotCheck:
         if np.count_nonzero(good) < good.size:
             values = self._usable(values, health)
         values[TIME] += stamp
-        locate(values)
+        locate(values, self._parameters.bias)
         return values
 
     def _usable(self, values: FloatArray, health: Health) -> FloatArray:

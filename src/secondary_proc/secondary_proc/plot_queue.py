@@ -66,6 +66,23 @@ class PlotQueue:
             self._begun, self._epoch = True, stamp
         return (stamp - self._epoch) / NANOSECONDS
 
+    def start(self, stamp: int) -> float:
+        """Take up the time where another tracker left it.
+
+        Args:
+            stamp: of its last message, nanoseconds.
+
+        Returns:
+            The same in seconds.
+
+        Raises:
+            RuntimeError: there have been messages already.
+        """
+        if self._begun:
+            raise RuntimeError("tracks can be taken over before the first message only")
+        self.now, self._last_stamp = self.seconds(stamp), stamp
+        return self.now
+
     @property
     def last_stamp(self) -> int:
         """Latest stamp in nanoseconds, 0 before the first message."""

@@ -132,13 +132,16 @@ class Plots:
         return Plots(self.values[:, which])
 
 
-def locate(values: FloatArray) -> None:
+def locate(values: FloatArray, bias: tuple[float, float] = (0.0, 0.0)) -> None:
     """Fill in positions and their covariances from ranges, azimuths and their errors.
 
     Args:
-        values: changed, shape (PLOT_ROWS, n).
+        values: changed, shape (PLOT_ROWS, n); ranges and azimuths stay as they were measured.
+        bias: by how much ranges (m) and azimuths (rad) are too large.
     """
     distance, azimuth, range_std, azimuth_std = values[RANGE : AZIMUTH_STD + 1]
+    if any(bias):
+        distance, azimuth = distance - bias[0], azimuth - bias[1]
     values[X], values[Y] = enu_from_polar(distance, azimuth)
     covariance = enu_covariance(distance, azimuth, range_std, azimuth_std)
     values[XX:] = covariance.reshape(-1, 4).T

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
@@ -15,6 +17,7 @@ from secondary_proc.track_store import Columns
 Rows = npt.NDArray[np.void]
 
 
+_ROUNDING = 1e-6
 _PACKED = np.dtype(
     [
         ("kinematic", "<f4", (21,)),  # x, y, z, vx, vy, covariance
@@ -89,3 +92,37 @@ def first_rows(second: Rows, first: Plots) -> Rows:
     out["covariance"] = covariance.reshape(-1, 16)
     out["hits"], out["misses"], out["age"], out["score"] = 1, 0, 0.0, 0.0
     return out
+
+
+def columns(
+    rows: Rows, *, origin: float, place: tuple[float, float], period: float, memory: np.dtype[Any]
+) -> Columns:
+    """Read tracks back from rows, each the last of its track.
+
+    Args:
+        rows: dtype TRACK, in the map, shape (n,).
+        origin: tracker's time of the rows' stamp, seconds.
+        place: of the radar in the map, metres east and north.
+        period: of the antenna, seconds.
+        memory: dtype of what the smoother keeps, which rows do not tell: it starts anew.
+
+    Returns:
+        The tracks, not yet scheduled.
+    """
+    tracks = Columns.zeros(len(rows), memory)
+    tracks.state[:] = np.stack([rows[name] for name in ("x", "y", "vx", "vy")], axis=1)
+    tracks.state[:, :2] -= place
+    tracks.covariance[:] = rows["covariance"].reshape(-1, 4, 4)
+    # Rounded to single precision it might have lost its definiteness.
+    tracks.covariance[:, range(4), range(4)] *= 1.0 + _ROUNDING
+    tracks.time[:] = origin + rows["time_offset"]
+    predicted = np.isnan(rows["plot_range"])
+    tracks.crossing[:] = tracks.time + np.where(predicted, 0.0, rows["misses"] * period)
+    tracks.schedule[:] = np.inf
+    tracks.born[:] = tracks.time - rows["age"]
+    tracks.score[:] = tracks.best[:] = np.nan_to_num(rows["score"])
+    tracks.plot[:] = polar_from_enu(*tracks.state[:, :2].T)
+    tracks.plot[:, ~predicted] = rows["plot_range"][~predicted], rows["plot_azimuth"][~predicted]
+    tracks.id[:], tracks.status[:] = rows["id"], rows["status"]
+    tracks.passages[:] = rows["hits"], rows["misses"]
+    return tracks

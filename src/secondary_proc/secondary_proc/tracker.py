@@ -14,6 +14,7 @@ from secondary_proc.association.soft import Contest
 from secondary_proc.choice import Pairs
 from secondary_proc.clutter import FalsePlotDensity
 from secondary_proc.gating import SelectionWatch
+from secondary_proc.handover import Handover
 from secondary_proc.initiation.strength import StrengthRatio
 from secondary_proc.parameters import TrackerParameters
 from secondary_proc.plot_queue import PlotQueue
@@ -108,6 +109,35 @@ class Tracker:
         self._drain(out, gather=elapsed < _GATHERED_MISSES * self._rotation.period)
         return self._table(out, plots.stamp)
 
+    def resume(self, handover: Handover) -> None:
+        """Go on with the tracks of another tracker, as if messages had been lost since its last.
+
+        Args:
+            handover: what it left.
+
+        Raises:
+            RuntimeError: messages have been processed already.
+        """
+        parameters, rows = self.parameters, handover.alive()
+        origin = self._queue.start(handover.tracks.stamp)
+        self._rotation = Rotation(parameters.scan_period or handover.period)
+        self._tracks.reconfigure(parameters, self._rotation)
+        place = (parameters.radar_x, parameters.radar_y)
+        next_id = max(handover.next_id, int(handover.tracks.rows["id"].max(initial=0)) + 1)
+        self._tracks.resume(rows, next_id, origin, place)
+        self.health.count("tracks resumed", len(rows))
+
+    def handover(self) -> Handover:
+        """What another tracker needs to go on.
+
+        Returns:
+            Confirmed and coasting tracks, each at its last plot.
+        """
+        stamp = self._queue.last_stamp
+        table = self._finished([self._tracks.present()], stamp)
+        period = self._rotation.period if self._rotation.known else 0.0
+        return Handover(table, self._tracks.next_id, period)
+
     def flush(self) -> Table:
         """Process what still waits for competitors, as no message will follow.
 
@@ -190,7 +220,7 @@ class Tracker:
             self._selection.observe(
                 gated.track, pairs.weight, pairs.density, gated.determinant, own
             )
-        gain, by_hits = pairs.gain[edges], self._tracks.hit_gain
+        gain, by_hits = pairs.gain[edges], self._tracks.initiation.hit_gain
         if by_hits is not None:
             gain = by_hits(gated.determinant[edges], pairs.density[edges])
         contest = None
@@ -200,7 +230,7 @@ class Tracker:
         return self._tracks.update(gated.track[edges], taken, gain, self._threshold(), contest)
 
     def _open(self, plots: Plots, strange: FloatArray | None, out: list[Rows]) -> None:
-        parameters, gap = self.parameters, self._tracks.longest_gap
+        parameters, gap = self.parameters, self._tracks.initiation.longest_gap
         period = self._tracks.period
         self._starts.forget(plots.time[0] - (gap + 0.5) * period)
         if self._rotation.known:
@@ -227,6 +257,12 @@ class Tracker:
         return score.confirmation_threshold(per_hour, self.parameters.false_tracks_per_hour)
 
     def _table(self, out: list[Rows], stamp: int) -> Table:
+        if self._queue.now > self._watched + _WATCHED * self._rotation.period:
+            self._watched = self._queue.now
+            self._watch()
+        return self._finished(out, stamp)
+
+    def _finished(self, out: list[Rows], stamp: int) -> Table:
         # Of equal dtypes; naming it spares numpy a promotion that costs more than the copy.
         rows = np.concatenate([_NO_ROWS, *out], dtype=TRACK) if len(out) != 1 else out[0]
         if len(rows):
@@ -234,9 +270,6 @@ class Tracker:
             for name in ("x", "y", "z"):
                 if place := getattr(self.parameters, f"radar_{name}"):
                     rows[name] += place
-        if self._queue.now > self._watched + _WATCHED * self._rotation.period:
-            self._watched = self._queue.now
-            self._watch()
         return Table(stamp, rows, SITE_FRAME)
 
     def _watch(self) -> None:

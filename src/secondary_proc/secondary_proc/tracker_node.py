@@ -21,6 +21,7 @@ from radar_common.ros.parameters import NodeParameters
 from radar_common.ros.run import run
 from radar_common.tables import NANOSECONDS, PLOT, PLOTS_TOPIC, TRACKS_TOPIC, Table, TrackStatus
 from secondary_proc.parameters import TrackerParameters
+from secondary_proc.state_file import StateFile
 from secondary_proc.tracker import Tracker
 
 NODE_NAME = "tracker"
@@ -52,7 +53,10 @@ class TrackerNode(Node):
         super().__init__(NODE_NAME, **node_options)
         self._health = Health()
         self._settings = NodeParameters(self, TrackerParameters, self._change)
-        self._tracker = Tracker(self._settings.values, self._health)
+        values = self._settings.values
+        self._tracker = Tracker(values, self._health)
+        self._state = StateFile(values.state_file, values.state_interval, self._health)
+        self._state.restore(self._tracker)
         self._tracks = TablePublisher(self, TRACKS_TOPIC)
         self._markers = self.create_publisher(MarkerArray, MARKERS_TOPIC, 10)
         self._plots = TableSubscription(
@@ -66,6 +70,7 @@ class TrackerNode(Node):
     def _receive(self, plots: Table) -> None:
         tracks = self._tracker.process(plots)
         self._tracks.publish(tracks)
+        self._state.keep(self._tracker, plots.stamp)
         if len(tracks.rows) and self._markers.get_subscription_count():
             self._markers.publish(markers(tracks, self._tracker.period))
 

@@ -14,7 +14,6 @@ from secondary_proc import track_table
 from secondary_proc.association.soft import Contest
 from secondary_proc.gates import Gated, gate, narrow_gates
 from secondary_proc.initiation import INITIATIONS
-from secondary_proc.initiation.interface import HitGain
 from secondary_proc.motion import FloatArray, noise_density
 from secondary_proc.opening import opened_tracks
 from secondary_proc.passages import CONFIRMED, ENDED, TENTATIVE, judge, take_misses, take_plots
@@ -36,7 +35,13 @@ FASTEST_REVISIT = 0.5
 
 
 class Tracks:
-    """All tracks and what can happen to them; every method returns the rows to publish."""
+    """All tracks and what can happen to them; every method returns the rows to publish.
+
+    Attributes:
+        initiation: the rule that judges tentative tracks.
+        next_id: first id that was never given out.
+        period: of the antenna, as the tracks were scheduled by it, seconds.
+    """
 
     def __init__(self, parameters: TrackerParameters, rotation: Rotation, health: Health) -> None:
         """Start without tracks.
@@ -47,7 +52,7 @@ class Tracks:
             health: where events are counted.
         """
         self._health = health
-        self._next_id = 1
+        self.next_id = 1
         self._missed_until = -np.inf
         self._store = TrackStore(np.dtype(float))
         self.reconfigure(parameters, rotation)
@@ -64,7 +69,7 @@ class Tracks:
         self.period = rotation.period
         self._quiet = noise_density(parameters.acceleration)
         self._manoeuvre = noise_density(parameters.manoeuvre_acceleration)
-        self._initiation = INITIATIONS[parameters.initiation](parameters)
+        self.initiation = INITIATIONS[parameters.initiation](parameters)
         self._smoother = SMOOTHERS[parameters.smoother](parameters)
         self._store.set_memory(self._smoother.memory)
         self._timetable = Timetable(self._store, parameters, rotation)
@@ -77,19 +82,30 @@ class Tracks:
         """
         self._timetable.synchronise(now)
 
+    def resume(self, rows: Rows, next_id: int, origin: float, place: tuple[float, float]) -> None:
+        """Go on with the tracks of another tracker.
+
+        Args:
+            rows: dtype TRACK, in the map, one of each track.
+            next_id: first id that was never given out.
+            origin: tracker's time of the rows' stamp, seconds.
+            place: of the radar in the map, metres east and north.
+        """
+        new = track_table.columns(
+            rows, origin=origin, place=place, period=self.period, memory=self._smoother.memory
+        )
+        self._store.append(new)
+        self.next_id = max(next_id, int(new.id.max(initial=0)) + 1)
+        self._timetable.postpone(new.time)
+
+    def present(self) -> Rows:
+        """Rows of the confirmed and coasting tracks, each at its last plot, in the radar's frame."""
+        tracks = self._store.live
+        return track_table.rows(tracks.take((tracks.status != TENTATIVE).nonzero()[0]))
+
     def __len__(self) -> int:
         """Number of tracks, tentative ones included."""
         return len(self._store)
-
-    @property
-    def longest_gap(self) -> int:
-        """Turns of the antenna that may lie between the first two plots of a track."""
-        return self._initiation.longest_gap
-
-    @property
-    def hit_gain(self) -> HitGain | None:
-        """What any plot in a gate adds to the score, None where its place in the gate counts."""
-        return self._initiation.hit_gain
 
     def is_confirmed(self, tracks: IndexArray) -> npt.NDArray[np.bool_]:
         """Tell which tracks have been confirmed, coasting or not.
@@ -191,10 +207,10 @@ class Tracks:
         first, second, gap, scores = first[best], second[best], gap[best], scores[best]
         count = len(first)
         columns = opened_tracks(first, second, self._quiet, self._smoother.memory)
-        columns.id[:] = self._next_id + np.arange(count)
-        columns.rule[:] = self._initiation.opened(gap)
+        columns.id[:] = self.next_id + np.arange(count)
+        columns.rule[:] = self.initiation.opened(gap)
         columns.score[:] = columns.best[:] = scores
-        self._next_id += count
+        self.next_id += count
         self._health.count("tracks opened", count)
         opened = track_table.first_rows(track_table.rows(columns), first)
         judged, ended = self._judged(columns, threshold)
@@ -268,7 +284,7 @@ class Tracks:
         found: bool,
         threshold: float,
     ) -> None:
-        confirmed = judge(columns, tentative, self._initiation, found=found, threshold=threshold)
+        confirmed = judge(columns, tentative, self.initiation, found=found, threshold=threshold)
         self._health.count("tracks confirmed", confirmed)
 
     def _bury(self) -> None:
