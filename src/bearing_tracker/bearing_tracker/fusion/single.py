@@ -7,32 +7,25 @@ from typing import Literal
 
 from bearing_tracker.fusion.belief import Belief
 from bearing_tracker.fusion.dcmp import DcmpFilter
-from bearing_tracker.fusion.interface import ChannelFilter, ChannelPair, Motion, Reading
+from bearing_tracker.fusion.interface import ChannelPair, Motion, Reading
 
 
 class SingleChannelFilter(DcmpFilter):
-    """Any filter, to which one channel never reports; of that channel it knows what its chain says.
+    """The filter of the paper, to which one channel never reports; of that channel it knows what its chain says.
 
     Attributes:
         channels: that it was made for.
     """
 
-    def __init__(
-        self,
-        channels: ChannelPair,
-        heard: Literal["active", "passive"],
-        inner: ChannelFilter | None = None,
-    ) -> None:
+    def __init__(self, channels: ChannelPair, heard: Literal["active", "passive"]) -> None:
         """Make the filter.
 
         Args:
             channels: through which targets are seen.
             heard: the channel that reports.
-            inner: that does the work; None for the filter of the paper.
         """
         super().__init__(channels)
         self._heard = heard
-        self._inner = inner if inner is not None else DcmpFilter(channels)
 
     def step(
         self,
@@ -56,5 +49,5 @@ class SingleChannelFilter(DcmpFilter):
             ValueError: a reading is not finite or its covariance not positive definite.
         """
         if self._heard == "active":
-            return self._inner.step(belief, motion, active=active)
-        return self._inner.step(belief, motion, passive=passive)
+            return super().step(belief, motion, active=active)
+        return super().step(belief, motion, passive=passive)

@@ -75,8 +75,8 @@ def draw_channel_fusion(
         _legend(panels[4])
 
         for name, column, colour, line, label in (
-            ("dcmp", _ACTIVE, _ACTIVE_COLOUR, "-", "active channel only"),
-            ("dcmp", _PASSIVE, _PASSIVE_COLOUR, "-", "passive channel only"),
+            ("dcmp", _ACTIVE, _ACTIVE_COLOUR, "-", "active alone"),
+            ("dcmp", _PASSIVE, _PASSIVE_COLOUR, "-", "passive alone"),
             ("dcmp", _BOTH, _FUSED_COLOUR, "-", "both"),
             ("oracle", _BOTH, INK, ":", "both, told the truth"),
         ):
