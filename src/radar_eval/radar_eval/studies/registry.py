@@ -12,7 +12,9 @@ from radar_eval.errors import EvaluationError
 from radar_eval.studies.channel_fusion import study_channel_fusion
 from radar_eval.studies.clutter import study_clutter
 from radar_eval.studies.emitter_location import study_emitter_location
+from radar_eval.studies.initiation import study_initiation
 from radar_eval.studies.sensitivity import study_sensitivity
+from radar_eval.studies.smoothers import study_smoothers
 from radar_eval.studies.tracking import study_tracking
 
 
@@ -50,9 +52,19 @@ STUDIES: dict[str, Study] = {
             study_emitter_location,
         ),
         Study(
+            "initiation",
+            "false tracks an hour against delay of confirmation, for every rule of initiation",
+            study_initiation,
+        ),
+        Study(
             "sensitivity",
             "what every detector loses against the ideal integrator, predicted and measured",
             study_sensitivity,
+        ),
+        Study(
+            "smoothers",
+            "every smoother of the tracker on the same flights, straight and manoeuvring",
+            study_smoothers,
         ),
         Study(
             "tracking",
