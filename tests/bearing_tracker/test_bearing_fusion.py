@@ -43,32 +43,32 @@ def fusion():
     return BearingFusion(FusionParameters())
 
 
-def test_under_jamming_the_fused_bearing_is_better_than_either_channel(channels, target, run):
-    error = {"dcmp": [], "active": [], "passive": []}
-    health = []
-    for seed in range(2):
-        messages = channels([target], seed=seed, jam=JAM, end=120.0).messages
-        for name, gathered in error.items():
-            rows, times = run(BearingFusion(FusionParameters(filter=name)), messages)
-            jammed = (times > JAM[0] + 4.0) & (times < JAM[1])
-            clear = (times > WARM_UP) & ~((times >= JAM[0]) & (times < JAM[1] + 4.0))
-            wrong = errors(target, rows, times)
-            gathered.append((rms(wrong[clear]), rms(wrong[jammed])))
-            if name == "dcmp":
-                told = rows["active_health"][:, 1]
-                health.append((told[clear].mean(), told[jammed].mean()))
-                normalised = np.square(wrong / rows["azimuth_std"])[times > WARM_UP]
-                assert normalised.mean() < 1.5
-    clear, jammed = (
-        {name: rms(np.array(gathered)[:, column]) for name, gathered in error.items()}
-        for column in (0, 1)
-    )
-    assert clear["dcmp"] < 0.9 * min(clear["active"], clear["passive"])
-    assert jammed["dcmp"] < 1.1 * min(jammed["active"], jammed["passive"])
-    assert jammed["dcmp"] < 0.6 * jammed["active"]
-    quiet, loud = np.mean(health, axis=0)
-    assert quiet < 0.15
-    assert loud > 0.7
+def test_under_jamming_the_fused_bearing_is_better_than_either_channel(channels, flight, run):
+    # Six at once cost as much as one.
+    flights = [
+        flight((30e3 * np.sin(turn), 30e3 * np.cos(turn)), (-150.0, -50.0), number, number)
+        for number, turn in enumerate(np.arange(0.5, 6.0, 1.0), start=1)
+    ]
+    messages = channels(flights, jam=JAM, end=110.0).messages
+    clear_error, jammed_error = {}, {}
+    for name in ("dcmp", "active", "passive"):
+        rows, times = run(BearingFusion(FusionParameters(filter=name)), messages)
+        wrong = np.zeros(len(rows))
+        for one in flights:
+            mine = rows["id"] == one.track
+            wrong[mine] = errors(one, rows[mine], times[mine])
+        assert set(rows["id"].tolist()) == {one.track for one in flights}
+        jammed = (times > JAM[0] + 4.0) & (times < JAM[1])
+        clear = (times > WARM_UP) & ~((times >= JAM[0]) & (times < JAM[1] + 4.0))
+        clear_error[name], jammed_error[name] = rms(wrong[clear]), rms(wrong[jammed])
+        if name == "dcmp":
+            assert np.square(wrong / rows["azimuth_std"])[times > WARM_UP].mean() < 1.5
+            assert rows["active_health"][clear, 1].mean() < 0.15
+            assert rows["active_health"][jammed, 1].mean() > 0.7
+            assert np.isnan(rows["active_health"][:, 2:]).all()
+    assert clear_error["dcmp"] < min(clear_error["active"], clear_error["passive"])
+    assert jammed_error["dcmp"] < 1.1 * min(jammed_error["active"], jammed_error["passive"])
+    assert jammed_error["dcmp"] < 0.6 * jammed_error["active"]
 
 
 def test_a_strobe_without_a_track_becomes_a_target_of_its_own(channels, flight, run, fusion):
@@ -178,7 +178,7 @@ def test_duplicated_messages_change_nothing(channels, target, run):
 
 def test_a_clock_that_goes_back_begins_anew_with_other_numbers(channels, flight, run, fusion):
     strobe = flight((-30e3, 10e3), (50.0, 100.0), seen=(1e9, 1e9))
-    messages = channels([strobe], end=30.0).messages
+    messages = channels([strobe], end=20.0).messages
     rows, _ = run(fusion, messages + messages)
     assert fusion.health.dropped["time went back: all targets ended"] >= 1
     assert len(set(rows["id"].tolist())) == 2
@@ -186,7 +186,7 @@ def test_a_clock_that_goes_back_begins_anew_with_other_numbers(channels, flight,
 
 def test_a_new_process_goes_on_in_the_middle_of_a_run(channels, flight, target, run):
     strobe = flight((-30e3, 10e3), (50.0, 100.0), seen=(1e9, 1e9))
-    messages = channels([target, strobe]).messages
+    messages = channels([target, strobe], end=40.0).messages
     half = len(messages) // 2
     first, _ = run(BearingFusion(FusionParameters()), messages[:half])
     second, times = run(BearingFusion(FusionParameters()), messages[half:])
@@ -197,7 +197,7 @@ def test_a_new_process_goes_on_in_the_middle_of_a_run(channels, flight, target, 
     assert rms(errors(target, second[late & followed], times[late & followed])) < 0.006
 
 
-@pytest.mark.parametrize("spread", [0.0, 10.0])
+@pytest.mark.parametrize("spread", [0.0, 2.0])
 def test_ten_thousand_bearings_in_a_message_are_bounded(make_bearings, start, spread, fusion):
     random = np.random.default_rng(1)
     rows = make_bearings(
