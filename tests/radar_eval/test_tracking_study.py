@@ -13,7 +13,7 @@ from scipy import stats
 
 from radar_common.bag import BagWriter
 from radar_common.health import Health
-from radar_common.tables import PLOTS_TOPIC, TRACKS_TOPIC, TRUTH_TOPIC, TrackStatus
+from radar_common.tables import PLOTS_TOPIC, TRACKS_TOPIC, TRUTH_TOPIC, EndReason, TrackStatus
 from radar_eval.asterix_import import ImportOptions, import_recording, messages
 from radar_eval.asterix_records import NAUTICAL_MILE, decode_records
 from radar_eval.bag_tables import lay_out
@@ -23,6 +23,7 @@ from radar_eval.figures.style import as_png
 from radar_eval.figures.tracking import draw_tracking
 from radar_eval.figures.tracking_consistency import draw_consistency
 from radar_eval.metrics.consistency import PLOT_DEGREES, STATE_DEGREES, bounds_of_mean
+from radar_eval.metrics.continuity import ends_of_tracks
 from radar_eval.metrics.per_target import score_targets
 from radar_eval.recording_file import data_blocks
 from radar_eval.studies import tracking_stone_soup
@@ -189,6 +190,17 @@ def test_each_target_s_tracks_switches_and_losses_are_counted(world):
     assert scores.trouble.tolist() == [10, 5, 0, 0, 0, 0]
     assert scores.worst(10).tolist() == [0, 1]
     assert scores.worst(1).tolist() == [0]
+
+
+def test_the_ends_of_confirmed_tracks_are_counted_by_reason(world):
+    plots = world.plots()
+    tracks = world.tracks(plots, world.owner(plots))
+    last = {int(n): np.flatnonzero(tracks.rows["id"] == n)[-1] for n in (100, 101, 102)}
+    for number, reason in ((100, EndReason.SCORE), (101, EndReason.MISSES), (102, EndReason.SCORE)):
+        tracks.rows["status"][last[number]] = TrackStatus.ENDED
+        tracks.rows["end_reason"][last[number]] = reason
+    evaluation = evaluate(world.tables(plots, tracks), ScoreOptions(scan_period=4.0))
+    assert ends_of_tracks(evaluation) == {"score": 2, "misses": 1}
 
 
 def test_levels_are_summed_up_with_the_bound_of_their_false_tracks():

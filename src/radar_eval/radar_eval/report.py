@@ -18,6 +18,7 @@ from radar_eval.figures.over_range import draw_over_range
 from radar_eval.figures.over_time import draw_over_time
 from radar_eval.figures.ppi import draw_ppi
 from radar_eval.figures.style import as_png, as_svg, png_uri
+from radar_eval.metrics.continuity import ends_of_tracks
 from radar_eval.run_record import RunRecord
 from radar_eval.score_names import describe_scores
 from radar_eval.scores import compute_scores
@@ -32,7 +33,7 @@ _SECTIONS = {
     ),
     "Position": (
         "rms_raw_m", "rms_tracked_m", "rms_raw_of_tracked_m", "rms_tracked_any_plot_m",
-        "rms_velocity_m_s", "gospa_m",
+        "rms_velocity_m_s", "nis_mean", "gospa_m",
         "gospa_missed", "gospa_false", "gospa_cutoff_m",
     ),
     "Plots": (
@@ -72,7 +73,7 @@ def write_report(
     page = _render(
         title=title,
         headlines=_headlines(scores),
-        sections=_sections(scores),
+        sections=_sections(scores) | _ends(evaluation),
         ppi=png_uri(picture),
         over_time=as_svg(draw_over_time(evaluation)),
         over_range=as_svg(draw_over_range(evaluation)),
@@ -111,6 +112,15 @@ def _headlines(scores: dict[str, Any]) -> list[tuple[str, str]]:
     if scores["plots_in_tracks"] == scores["plots_in_tracks"]:
         texts["plots_in_tracks"] = f"{100.0 * scores['plots_in_tracks']:.1f} %"
     return [(texts[name], meaning) for name, meaning in _HEADLINES]
+
+
+def _ends(evaluation: Evaluation) -> dict[str, list[tuple[str, str, str]]]:
+    ends = ends_of_tracks(evaluation)
+    return (
+        {"Ends of confirmed tracks": [(why, str(number), why) for why, number in ends.items()]}
+        if ends
+        else {}
+    )
 
 
 def _sections(scores: dict[str, Any]) -> dict[str, list[tuple[str, str, str]]]:

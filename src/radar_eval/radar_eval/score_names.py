@@ -22,6 +22,7 @@ MEANINGS = {
     "rms_raw_of_tracked_m": "position error of the plots that these were updated with (m)",
     "rms_tracked_any_plot_m": "position error of tracks, also where a false plot misled them (m)",
     "rms_velocity_m_s": "velocity error of the same tracks (m/s)",
+    "nis_mean": "innovations of confirmed tracks, normalised and squared; 2 where the models are right",
     "plots": "plots",
     "plots_per_scan": "plots a scan",
     "false_plots_per_scan": "plots of no target a scan",

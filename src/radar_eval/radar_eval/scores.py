@@ -7,6 +7,7 @@ from typing import Any
 
 from radar_eval.evaluation import Evaluation
 from radar_eval.metrics.accuracy import accuracy_scores
+from radar_eval.metrics.consistency import consistency_scores
 from radar_eval.metrics.continuity import continuity_scores
 from radar_eval.metrics.detection import detection_scores
 from radar_eval.metrics.set_distance import gospa_scores
@@ -26,6 +27,7 @@ def compute_scores(evaluation: Evaluation, run: RunRecord | None) -> dict[str, A
     return {
         **continuity_scores(evaluation),
         **accuracy_scores(evaluation),
+        **consistency_scores(evaluation),
         **detection_scores(evaluation),
         **gospa_scores(evaluation),
         "scans": round(evaluation.scans),

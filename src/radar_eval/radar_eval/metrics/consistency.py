@@ -39,6 +39,19 @@ class Normalised:
     value: FloatArray
 
 
+def consistency_scores(evaluation: Evaluation) -> dict[str, float]:
+    """Score what the tracks say of their own errors.
+
+    Args:
+        evaluation: of a bag.
+
+    Returns:
+        Mean of NIS; two where the smoother's models and the plots' errors are right.
+    """
+    found = innovations(evaluation).value
+    return {"nis_mean": float(np.mean(found)) if len(found) else float("nan")}
+
+
 def state_errors(evaluation: Evaluation) -> Normalised:
     """Normalise the errors of the states.
 

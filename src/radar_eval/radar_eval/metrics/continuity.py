@@ -10,9 +10,15 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from radar_common.tables import EndReason, TrackStatus
 from radar_eval.evaluation import Evaluation
 
 BoolArray = npt.NDArray[np.bool_]
+
+# A track that ended and says "alive" comes from a version that told no reasons.
+_REASONS = {int(reason): reason.name.lower().replace("_", " ") for reason in EndReason} | {
+    int(EndReason.ALIVE): "not told"
+}
 
 
 def continuity_scores(evaluation: Evaluation) -> dict[str, float]:
@@ -91,6 +97,23 @@ def looks_covered(evaluation: Evaluation) -> BoolArray:
     np.add.at(changes, position(history.confirmed_at[alive] - jitter), 1)
     np.add.at(changes, position(history.last_at[alive] + jitter), -1)
     return np.cumsum(changes[:-1]) > 0
+
+
+def ends_of_tracks(evaluation: Evaluation) -> dict[str, int]:
+    """Count why confirmed tracks ended.
+
+    Args:
+        evaluation: of a bag.
+
+    Returns:
+        Number of tracks by reason, the most frequent first; none for those that were alive at the end.
+    """
+    history, tracks = evaluation.history, evaluation.tables.tracks.rows
+    ended = tracks["status"] == TrackStatus.ENDED
+    ended &= history.confirmed[history.track_of_row]
+    reasons, numbers = np.unique(tracks["end_reason"][ended], return_counts=True)
+    order = np.argsort(-numbers, kind="stable")
+    return {_REASONS.get(int(reasons[i]), "unknown"): int(numbers[i]) for i in order}
 
 
 def _plots_in_tracks(evaluation: Evaluation) -> float:
