@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bearing_tracker.platform_path import Limits, PlatformPath
@@ -27,6 +27,7 @@ def path_of(times, health=None):
     return path
 
 
+@settings(max_examples=40)
 @given(
     st.lists(st.integers(0, 100), min_size=2, max_size=30, unique=True),
     st.lists(st.floats(0.0, 12.0), min_size=1, max_size=20),

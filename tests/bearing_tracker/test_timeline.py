@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bearing_tracker.looks import looks
@@ -33,6 +33,7 @@ def arrive(timeline, times):
     return np.concatenate(out)
 
 
+@settings(max_examples=40)
 @given(st.lists(st.integers(0, 10_000), min_size=2, max_size=40, unique=True), st.randoms())
 def test_order_of_arrival_within_the_window_does_not_matter(milliseconds, random):
     times = sorted(1e-3 * ms for ms in milliseconds)
