@@ -81,3 +81,20 @@ def test_a_bag_gives_back_the_states(tmp_path):
     assert topics(tmp_path / "bag") == {}
     assert [s.x for s in read_odometry(tmp_path / "bag", PLATFORM_TOPIC)] == [0.0, 1.0, 2.0]
     assert list(read_odometry(tmp_path / "bag", "elsewhere")) == []
+
+
+@pytest.mark.parametrize(
+    ("xx", "xy", "yy", "variance"),
+    [
+        (4.0, 1.0, 2.0, 3.0),
+        (0.0, 0.0, 0.0, 0.0),
+        (-1.0, 0.0, 3.0, 0.0),
+        (1.0, 2.0, 1.0, 0.0),
+        (math.nan, 0.0, 1.0, 0.0),
+        (math.inf, 0.0, 1.0, 0.0),
+    ],
+)
+def test_a_covariance_counts_only_if_positive_definite(xx, xy, yy, variance):
+    message = encode_odometry(PlatformState(0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), ODOMETRY_TYPES)
+    message.pose.covariance[[0, 1, 6, 7]] = xx, xy, xy, yy
+    assert decode_odometry(message).position_variance == variance

@@ -137,7 +137,6 @@ def decode_odometry(message: Any) -> PlatformState:
     x, y, z, w = (part / norm for part in quaternion)
     yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
     cosine, sine = math.cos(yaw), math.sin(yaw)
-    variance = 0.5 * (float(message.pose.covariance[0]) + float(message.pose.covariance[7]))
     stamp = message.header.stamp
     return PlatformState(
         stamp=stamp.sec * NANOSECONDS + stamp.nanosec,
@@ -149,7 +148,14 @@ def decode_odometry(message: Any) -> PlatformState:
         vy=sine * linear.x + cosine * linear.y,
         vz=linear.z,
         turn_rate=-angular.z,
-        # Who knows no covariance leaves zeros, or marks it with -1.
-        position_variance=variance if math.isfinite(variance) and variance > 0.0 else 0.0,
+        position_variance=_position_variance(
+            *(float(message.pose.covariance[i]) for i in (0, 1, 7))
+        ),
         frame_id=message.header.frame_id,
     )
+
+
+def _position_variance(xx: float, xy: float, yy: float) -> float:
+    # Who knows no covariance leaves zeros, or marks it with -1; what is not positive definite is none either.
+    definite = xx > 0.0 and yy > 0.0 and xx * yy > xy * xy
+    return 0.5 * (xx + yy) if definite and math.isfinite(xx + yy) else 0.0
