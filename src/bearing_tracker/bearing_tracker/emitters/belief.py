@@ -111,15 +111,15 @@ class Prior(Rows):
 
 @dataclass(frozen=True, slots=True)
 class Geometry(Rows):
-    """From where an emitter was heard: a fixed number K of places, neighbours merged when they are full.
+    """From where an emitter was heard: a fixed number K of places, evenly many bearings in each.
 
     Attributes:
         time: mean time of the bearings of a place, seconds since the first bearing, shape (n, K).
         observer: mean position, metres east and north, shape (n, K, 2).
         weight: sum of 1 / std^2 of the bearings, 1/rad^2, shape (n, K); zero where there is no bearing yet.
         unrest: variance that its accelerations have added to the emitter's velocity until then, m^2/s^2, shape (n, K).
-        places: in use, shape (n,).
         bearings: taken, shape (n,).
+        stride: bearings that share a place, shape (n,).
         heard: time of the last bearing, seconds since the first, shape (n,).
         now: time of the belief, seconds since the first bearing, shape (n,).
         unrest_now: the same variance until now, m^2/s^2, shape (n,).
@@ -130,8 +130,8 @@ class Geometry(Rows):
     observer: FloatArray
     weight: FloatArray
     unrest: FloatArray
-    places: npt.NDArray[np.intp]
     bearings: npt.NDArray[np.intp]
+    stride: npt.NDArray[np.intp]
     heard: FloatArray
     now: FloatArray
     unrest_now: FloatArray

@@ -16,6 +16,7 @@ DEFAULT_FILTER = "range_parameterised"
 
 FILTERS: dict[str, Callable[[FilterSettings], EmitterFilter]] = {
     DEFAULT_FILTER: lambda settings: FilterBank(settings, extended, settings.range_bins),
+    "range_parameterised_ckf": lambda settings: FilterBank(settings, cubature, settings.range_bins),
     "ekf": lambda settings: FilterBank(settings, extended),
     "modified_polar": lambda settings: FilterBank(settings, modified_polar),
     "ukf": lambda settings: FilterBank(settings, unscented),

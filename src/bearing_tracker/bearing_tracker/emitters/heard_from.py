@@ -13,7 +13,7 @@ from bearing_tracker.emitters.belief import Geometry
 FloatArray = npt.NDArray[np.float64]
 
 PLACES = 64
-"""Places kept; when they are full each two neighbours become one, so that the whole path stays covered."""
+"""Places kept; when they are full each two become one for twice as many bearings, so that all of the path stays."""
 
 
 def first_heard(observer: FloatArray, variance: FloatArray) -> Geometry:
@@ -36,8 +36,8 @@ def first_heard(observer: FloatArray, variance: FloatArray) -> Geometry:
         observer=places,
         weight=weight,
         unrest=np.zeros((emitters, PLACES)),
-        places=one,
         bearings=one,
+        stride=one,
         heard=nothing,
         now=nothing,
         unrest_now=nothing,
@@ -79,19 +79,22 @@ def heard_again(
     """
     time, places = geometry.time.copy(), geometry.observer.copy()
     weight, unrest = geometry.weight.copy(), geometry.unrest.copy()
-    used, bearings = geometry.places.copy(), geometry.bearings.copy()
+    bearings, stride = geometry.bearings.copy(), geometry.stride.copy()
     heard = geometry.heard.copy()
-    full = rows[used[rows] == PLACES]
+    full = rows[bearings[rows] == PLACES * stride[rows]]
     if len(full):
         share = weight[full].reshape(len(full), -1, 2)
         for array in (time, places, unrest):
             array[full] = _paired(array[full], share)
         weight[full] = np.concatenate([share.sum(axis=-1), np.zeros_like(share[..., 0])], axis=1)
-        used[full] = PLACES // 2
-    at, now = used[rows], geometry.now[rows]
-    time[rows, at], places[rows, at], weight[rows, at] = now, observer, 1.0 / variance
-    unrest[rows, at] = geometry.unrest_now[rows]
-    used[rows] += 1
+        stride[full] *= 2
+    at = bearings[rows] // stride[rows]
+    now = geometry.now[rows]
+    weight[rows, at] += 1.0 / variance
+    share = 1.0 / variance / weight[rows, at]
+    time[rows, at] += share * (now - time[rows, at])
+    unrest[rows, at] += share * (geometry.unrest_now[rows] - unrest[rows, at])
+    places[rows, at] += share[:, np.newaxis] * (observer - places[rows, at])
     bearings[rows] += 1
     heard[rows] = now
     return replace(
@@ -100,10 +103,22 @@ def heard_again(
         observer=places,
         weight=weight,
         unrest=unrest,
-        places=used,
         bearings=bearings,
+        stride=stride,
         heard=heard,
     )
+
+
+def places_used(geometry: Geometry) -> int:
+    """Count places that any emitter uses; they are the first ones.
+
+    Args:
+        geometry: of n emitters.
+
+    Returns:
+        Their number, one at least.
+    """
+    return int((-(-geometry.bearings // geometry.stride)).max(initial=1))
 
 
 def _paired(values: FloatArray, weight: FloatArray) -> FloatArray:

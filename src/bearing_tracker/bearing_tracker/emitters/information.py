@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from bearing_tracker.emitters.belief import Geometry, Prior
 from bearing_tracker.emitters.corrections.interface import correct_linear
+from bearing_tracker.emitters.heard_from import places_used
 from bearing_tracker.emitters.motion import propagate
 from bearing_tracker.emitters.sight import Sight, sight
 
@@ -33,7 +34,7 @@ def bearing_information(geometry: Geometry, state: FloatArray) -> FloatArray:
     Returns:
         Shape (n, 4, 4).
     """
-    used = int(geometry.places.max(initial=1))
+    used = places_used(geometry)
     weight, observer = geometry.weight[:, :used], geometry.observer[:, :used]
     taken = weight > 0.0
     age = np.where(taken, geometry.now[:, np.newaxis] - geometry.time[:, :used], 0.0)
