@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from radar_common.frames import enu_from_polar
-from radar_common.tables import NANOSECONDS, TRACK, Table, TrackStatus
+from radar_common.tables import NANOSECONDS, TRACK, EndReason, Table, TrackStatus
 from secondary_proc.parameters import TrackerParameters
 from secondary_proc.tracker import Tracker
 
@@ -168,6 +168,8 @@ def test_misses_are_counted_once_a_turn(scene, run):
     coast = ~np.isfinite(life["plot_range"])
     assert list(life["misses"][coast]) == [1, 2, 3, 4, 5, 6]
     assert list(life["status"][coast]) == [TrackStatus.COASTING] * 5 + [TrackStatus.ENDED]
+    assert list(life["end_reason"]) == [EndReason.ALIVE] * (len(life) - 1) + [EndReason.MISSES]
+    assert tracker.health.counts["tracks ended: misses"] == 1
     gaps = np.diff(times[rows["id"] == lost[0]][coast])
     np.testing.assert_allclose(gaps, 4.0, atol=0.05)
 
@@ -185,6 +187,7 @@ def test_a_track_ends_when_its_score_has_fallen_by_more_than_its_misses_may_cost
     rows, _ = run(tracker, messages[44 * 8 :], flush=False)
     ended = rows["status"] == TrackStatus.ENDED
     assert list(rows["misses"][ended]) == [2]
+    assert list(rows["end_reason"][ended]) == [EndReason.SCORE]
 
 
 @pytest.mark.parametrize("factor", [3.0, 1.0 / 3.0])
@@ -239,6 +242,29 @@ def test_ids_are_never_used_again_and_every_end_is_told_once(scene, run, tracker
     for i, when in zip(rows["id"].tolist(), times, strict=True):
         begun.setdefault(i, when)
     assert len(tracker._tracks) == 0
+    told = Counter(EndReason(reason) for reason in rows["end_reason"][ended].tolist())
+    assert (rows["end_reason"][~ended] == EndReason.ALIVE).all()
+    assert told[EndReason.NOT_CONFIRMED] > 20
+    assert told[EndReason.MISSES] + told[EndReason.SCORE] >= len(FLIGHTS)
+    counted = {
+        name: number for name, number in tracker.health.counts.items() if "tracks ended" in name
+    }
+    assert counted == {
+        f"tracks ended: {reason.name.lower().replace('_', ' ')}": number
+        for reason, number in told.items()
+    }
+
+
+def test_a_target_that_flies_out_of_range_ends_at_once(scene, run):
+    tracker = Tracker(TrackerParameters(maximum_range=40e3))
+    world = scene(seed=18)
+    world.fly((20e3, 20e3), (180.0, 180.0), end=100.0)
+    world.fly((-20e3, -20e3), (50.0, 10.0), end=100.0)
+    rows, _ = run(tracker, world.messages())
+    ended = rows[rows["status"] == TrackStatus.ENDED]
+    gone = ended[np.hypot(ended["x"], ended["y"]) > 40e3]
+    assert list(gone["end_reason"]) == [EndReason.OUT_OF_COVERAGE]
+    assert list(gone["misses"]) == [1]
 
 
 def test_no_plot_is_used_twice(scene, run, tracker):

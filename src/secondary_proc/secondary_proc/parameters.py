@@ -49,6 +49,16 @@ class TrackerParameters(SmoothingParameters):
         low=0.05,
         high=0.99,
     )
+    learn_detection: bool = parameter(
+        False,
+        "whether the probability of a plot is learned by range from confirmed tracks, beginning with "
+        "detection_probability",
+    )
+    false_plot_map: bool = parameter(
+        False,
+        "whether the density of false plots may differ within a ring of range, as over towns or rain, and not only "
+        "from ring to ring",
+    )
     minimum_speed: float = parameter(
         0.0,
         "slower pairs of plots open no track; the inner radius of the annulus is this times the time between them",

@@ -3,15 +3,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import numpy.typing as npt
 
 from radar_common.tables import EndReason, TrackStatus
 from secondary_proc import score
+from secondary_proc.detection import DetectionByRange
 from secondary_proc.initiation import Evidence, Initiation
 from secondary_proc.plots import AZIMUTH, RANGE, FloatArray, Plots
 from secondary_proc.smoothing import Measured, Smoother
 from secondary_proc.track_store import Columns
+
+if TYPE_CHECKING:
+    from secondary_proc.parameters import TrackerParameters
 
 BoolArray = npt.NDArray[np.bool_]
 
@@ -21,6 +27,7 @@ CONFIRMED = int(TrackStatus.CONFIRMED)
 COASTING = int(TrackStatus.COASTING)
 ENDED = int(TrackStatus.ENDED)
 _ALIVE, _MISSES, _SCORE = int(EndReason.ALIVE), int(EndReason.MISSES), int(EndReason.SCORE)
+_OUT_OF_COVERAGE = int(EndReason.OUT_OF_COVERAGE)
 _NOT_CONFIRMED = int(EndReason.NOT_CONFIRMED)
 
 
@@ -56,23 +63,30 @@ def take_plots(tracks: Columns, plots: Plots, gain: FloatArray, smoother: Smooth
     np.maximum(tracks.best, tracks.score, out=tracks.best)
 
 
-def take_misses(tracks: Columns, allowed: int, detection_probability: float) -> BoolArray:
+def take_misses(
+    tracks: Columns, parameters: TrackerParameters, detection: DetectionByRange
+) -> BoolArray:
     """Count a passage without a plot; confirmed tracks coast or end by it.
 
     Args:
         tracks: changed, n of them.
-        allowed: misses in a row that end a confirmed track.
-        detection_probability: of a plot per passage.
+        parameters: misses in a row that end a confirmed track, and the range beyond which there are no plots.
+        detection: probability of a plot per passage.
 
     Returns:
         Which tracks are tentative and wait for the verdict of their rule, shape (n,).
     """
     tentative: BoolArray = tracks.status == TENTATIVE
+    x, y = (tracks.state[:, :2] + tracks.state[:, 2:] * (tracks.expected - tracks.time)[:, None]).T
+    distance = np.hypot(x, y)
+    probability = detection.probability(distance)
+    allowed = parameters.confirmed_misses
     tracks.misses += 1
-    tracks.score += score.miss(detection_probability)
+    tracks.score += score.miss(probability)
     tracks.crossing[:] = tracks.expected
-    spent = score.is_spent(tracks.best, tracks.score, allowed, detection_probability)
+    spent = score.is_spent(tracks.best, tracks.score, allowed, probability)
     reason = np.where(tracks.misses >= allowed, _MISSES, np.where(spent, _SCORE, _ALIVE))
+    reason = np.where(distance > parameters.maximum_range, _OUT_OF_COVERAGE, reason)
     tracks.reason[:] = np.where(tentative, _ALIVE, reason)
     tracks.status[:] = np.where(tentative, TENTATIVE, np.where(reason == _ALIVE, COASTING, ENDED))
     return tentative

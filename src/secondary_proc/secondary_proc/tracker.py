@@ -22,6 +22,7 @@ from secondary_proc.plots import AZIMUTH, TIME, FloatArray, Plots
 from secondary_proc.rotation import Rotation
 from secondary_proc.starts import Annulus, Starts
 from secondary_proc.tracks import Tracks
+from secondary_proc.watching import watch
 
 Rows = npt.NDArray[np.void]
 
@@ -95,6 +96,7 @@ class Tracker:
             self._tracks.reconfigure(self.parameters, self._rotation)
         elapsed = max(stamp - self._queue.now, 0.0) if np.isfinite(self._queue.now) else 0.0
         self._clutter.forget(elapsed / self._rotation.period)
+        self._tracks.detection.forget(elapsed / self._rotation.period)
         if self._strength is not None:
             self._strength.forget(elapsed / self._rotation.period)
         accepted = self._queue.put(plots, self._rotation.period)
@@ -152,7 +154,9 @@ class Tracker:
     def _begin(self) -> None:
         self._queue = PlotQueue(self.parameters, self.health)
         self._rotation = Rotation(self.parameters.scan_period)
-        self._clutter = FalsePlotDensity(self.parameters.maximum_range)
+        self._clutter = FalsePlotDensity(
+            self.parameters.maximum_range, mapped=self.parameters.false_plot_map
+        )
         self._starts = Starts()
         self._strength: StrengthRatio | None = None
         self._slices = 0
@@ -160,6 +164,7 @@ class Tracker:
 
     def _prepare(self) -> None:
         parameters = self.parameters
+        self._clutter.mapped = parameters.false_plot_map
         if not parameters.amplitude_likelihood:
             self._strength = None
         elif self._strength is None:
@@ -189,13 +194,13 @@ class Tracker:
         unclaimed = np.ones(len(plots), bool)
         untracked = np.ones(len(plots), bool)
         if len(gated.track):
-            density = self._clutter.per_area(plots.range)
+            density = self._clutter.per_area(plots.range, plots.azimuth)
             if strange is not None:
                 density *= strange
             pairs = Pairs.judged(
                 gated,
                 density.take(gated.plot),
-                self.parameters.detection_probability,
+                self._detection(plots.range, gated.plot),
                 self._tracks.is_confirmed(gated.track),
             )
             edges = pairs.ready(pairs.choose(self.parameters), ripe, len(self._tracks))
@@ -205,12 +210,17 @@ class Tracker:
                 unclaimed[plot] = False
                 untracked[plot[pairs.confirmed[edges]]] = False
                 self._queue.take_also(plot[plot >= ripe] - ripe)
-        self._clutter.observe(plots.range[:ripe][untracked[:ripe]])
+        left = untracked[:ripe].nonzero()[0]
+        self._clutter.observe(plots.range[left], plots.azimuth[left])
         if self._strength is not None:
             self._strength.observe(plots.strength[:ripe], ~untracked[:ripe])
         if np.count_nonzero(unclaimed[:ripe]):
             left = unclaimed[:ripe].nonzero()[0]
             self._open(plots[left], strange[left] if strange is not None else None, out)
+
+    def _detection(self, ranges: FloatArray, plot: npt.NDArray[np.intp]) -> FloatArray | float:
+        probability = self._tracks.detection.probability(ranges)
+        return probability.take(plot) if isinstance(probability, np.ndarray) else probability
 
     def _give(self, plots: Plots, pairs: Pairs, edges: npt.NDArray[np.intp]) -> Rows:
         gated = pairs.gated
@@ -241,11 +251,14 @@ class Tracker:
             self.health.drop("first plots beyond the limit of neighbours", pairs.skipped)
             if len(pairs.start):
                 second = plots[pairs.plot]
-                density = self._clutter.per_area(second.range)
+                density = self._clutter.per_area(second.range, second.azimuth)
                 if strange is not None:
                     density *= strange[pairs.plot]
                 scores = score.second_plot(
-                    parameters.detection_probability, pairs.area, density, pairs.gap - 1
+                    self._tracks.detection.probability(second.range),
+                    pairs.area,
+                    density,
+                    pairs.gap - 1,
                 )
                 first = self._starts.plots[pairs.start]
                 out.append(self._tracks.open(first, second, pairs.gap, scores, self._threshold()))
@@ -259,7 +272,14 @@ class Tracker:
     def _table(self, out: list[Rows], stamp: int) -> Table:
         if self._queue.now > self._watched + _WATCHED * self._rotation.period:
             self._watched = self._queue.now
-            self._watch()
+            watch(
+                self.health,
+                self.parameters,
+                self._tracks.detection,
+                self._clutter,
+                self._selection,
+                self._rotation,
+            )
         return self._finished(out, stamp)
 
     def _finished(self, out: list[Rows], stamp: int) -> Table:
@@ -271,19 +291,3 @@ class Tracker:
                 if place := getattr(self.parameters, f"radar_{name}"):
                     rows[name] += place
         return Table(stamp, rows, SITE_FRAME)
-
-    def _watch(self) -> None:
-        counts = self.health.counts
-        found = counts["plots of confirmed tracks"]
-        passed = found + counts["misses of confirmed tracks"]
-        if passed:
-            self.health.watch(
-                "plots per passage of a confirmed track",
-                self.parameters.detection_probability,
-                found / passed,
-            )
-        if (shares := self._selection.shares) is not None:
-            self.health.watch("plots of confirmed tracks that are their own", *shares)
-        if self._rotation.known:
-            hint = self.parameters.scan_period or self._rotation.period
-            self.health.watch("scan period, s", hint, self._rotation.period)

@@ -12,6 +12,7 @@ from radar_common.health import Health
 from radar_common.tables import TRACK, EndReason
 from secondary_proc import track_table
 from secondary_proc.association.soft import Contest
+from secondary_proc.detection import DetectionByRange
 from secondary_proc.gates import Gated, gate, narrow_gates
 from secondary_proc.initiation import INITIATIONS
 from secondary_proc.motion import FloatArray, noise_density
@@ -38,6 +39,7 @@ class Tracks:
     """All tracks and what can happen to them; every method returns the rows to publish.
 
     Attributes:
+        detection: probability of a plot, as confirmed tracks have shown it.
         initiation: the rule that judges tentative tracks.
         next_id: first id that was never given out.
         period: of the antenna, as the tracks were scheduled by it, seconds.
@@ -54,6 +56,7 @@ class Tracks:
         self._health = health
         self.next_id = 1
         self._missed_until = -np.inf
+        self.detection = DetectionByRange(parameters)
         self._store = TrackStore(np.dtype(float))
         self.reconfigure(parameters, rotation)
 
@@ -65,6 +68,7 @@ class Tracks:
             rotation: of the antenna.
         """
         self._parameters = parameters
+        self.detection.reconfigure(parameters)
         self._rotation = rotation
         self.period = rotation.period
         self._quiet = noise_density(parameters.acceleration)
@@ -173,6 +177,8 @@ class Tracks:
             Rows of these tracks.
         """
         columns = self._store.take(tracks)
+        settled = (columns.status != TENTATIVE).nonzero()[0]
+        self.detection.observe(plots.range[settled], columns.misses[settled])
         if contest is not None:
             plots = contest.soften(columns, plots, self._quiet)
         take_plots(columns, plots, gain, self._smoother)
@@ -235,13 +241,9 @@ class Tracks:
         out: list[Rows] = []
         if self._timetable.soonest + wait >= until:
             return out
-        detection, allowed = (
-            self._parameters.detection_probability,
-            self._parameters.confirmed_misses,
-        )
         while len(late := (self._store.live.due < until).nonzero()[0]):
             columns = self._store.take(late)
-            tentative = take_misses(columns, allowed, detection)
+            tentative = take_misses(columns, self._parameters, self.detection)
             unsure = int(np.count_nonzero(tentative))
             self._health.count("misses of confirmed tracks", len(late) - unsure)
             if unsure:
