@@ -35,7 +35,8 @@ from radar_sim.bearings.simulator import BearingSimulator
 
 HEARD = {FUSED_BEARINGS_TOPIC: BEARING, EMITTERS_TOPIC: EMITTER, CHANNEL_TRUTH_TOPIC: BEARING}
 # Fifteen times as fast as real, a busy machine is late by as many times as much.
-FUSION = {"active_input": "plots", "buffer": 30.0}
+# Without a width no look is cut in two where the buffer happens to end as a message arrives.
+FUSION = {"active_input": "plots", "buffer": 30.0, "look": 0.0}
 LOCATOR = {"odometry_wait": 30.0, "buffer": 10.0}
 
 
