@@ -22,9 +22,9 @@ from radar_eval.studies.initiation_trials import (
 )
 
 PICTURE = "initiation.png"
-FALSE_PLOTS = (100.0, 300.0, 900.0)
+FALSE_PLOTS = (50.0, 200.0, 500.0)
 
-_SCANS, _TARGETS, _SEED = 90, 60, 1
+_SCANS, _TARGETS, _SEED = 75, 60, 1
 
 
 def study_initiation(folder: Path) -> dict[str, Any]:
