@@ -117,4 +117,10 @@ def _draw_errors(
     axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set(title=f"RMS position error of {default.runs} runs, m", xlabel="minutes")
     axes.text(0.012, 0.02, "range unknown", transform=axes.transAxes, color=MUTED, fontsize=8.0)
-    axes.legend(title="at the end over the bound", loc="best", alignment="left")
+    axes.legend(
+        title="at the end over the bound",
+        loc="best",
+        alignment="left",
+        labelspacing=0.2,
+        fontsize=8.0,
+    )
