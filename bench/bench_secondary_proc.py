@@ -34,8 +34,11 @@ WARM_UP = 6
 START = 1_700_000_000 * NANOSECONDS
 
 
-def turns(targets, scans, seed=1):
-    """Plots of straight flights, one a turn and target: for each turn (time, range, azimuth), in order of time."""
+def turns(targets, scans, seed=1, false_plots=0):
+    """Plots of straight flights, one a turn and target: for each turn (time, range, azimuth), in order of time.
+
+    False plots lie evenly in range and azimuth, so many a turn.
+    """
     random = np.random.default_rng(seed)
     x, y = random.uniform(-90e3, 90e3, (2, targets))
     vx, vy = random.uniform(-200.0, 200.0, (2, targets))
@@ -45,13 +48,20 @@ def turns(targets, scans, seed=1):
         east, north = x + vx * when, y + vy * when
         distance = np.hypot(east, north) + 20.0 * random.standard_normal(targets)
         azimuth = np.arctan2(east, north) + 0.002 * random.standard_normal(targets)
+        if false_plots:
+            places = random.uniform(0.0, 2 * np.pi, false_plots)
+            when = np.concatenate([when, PERIOD * (scan + places / (2 * np.pi))])
+            azimuth = np.concatenate([azimuth, places])
+            distance = np.concatenate([distance, random.uniform(1e3, 127e3, false_plots)])
         order = np.argsort(when, kind="stable")
         yield when[order], distance[order], np.mod(azimuth, 2 * np.pi)[order]
 
 
-def messages(targets, scans, sectors=SECTORS):
+def messages(targets, scans, sectors=SECTORS, false_plots=0):
     step = PERIOD / sectors
-    for scan, (when, distance, azimuth) in enumerate(turns(targets, scans)):
+    for scan, (when, distance, azimuth) in enumerate(
+        turns(targets, scans, false_plots=false_plots)
+    ):
         edges = scan * PERIOD + step * np.arange(sectors + 1)
         cuts = np.searchsorted(when, edges)
         cuts[-1] = len(when)
@@ -63,10 +73,10 @@ def messages(targets, scans, sectors=SECTORS):
             yield Table(START + round(edge * NANOSECONDS), rows)
 
 
-def seconds_of_ours(benchmark, targets, scans, sectors=SECTORS):
+def seconds_of_ours(benchmark, targets, scans, sectors=SECTORS, false_plots=0):
     """Shortest time that a settled tracker takes for some turns."""
-    before = list(messages(targets, WARM_UP, sectors))
-    later = list(messages(targets, WARM_UP + scans, sectors))[len(before) :]
+    before = list(messages(targets, WARM_UP, sectors, false_plots))
+    later = list(messages(targets, WARM_UP + scans, sectors, false_plots))[len(before) :]
 
     def settled():
         tracker = Tracker(TrackerParameters())
@@ -155,6 +165,16 @@ def test_growth_from_100_to_4000_tracks(benchmark, ratio):
     large = seconds_of_ours(benchmark, 4000, 3) / (4000 * 3)
     ratio("tracker, time per plot, 100 over 4000 tracks", small / large, "above 1/3 is near-linear")
     ratio("tracker, 4000 tracks", PERIOD / (large * 4000), "times faster than real time")
+
+
+def test_4000_tracks_among_as_many_false_plots(benchmark, ratio):
+    turns_measured = 2
+    seconds = seconds_of_ours(benchmark, 4000, turns_measured, false_plots=4000)
+    ratio(
+        "tracker, 4000 tracks, 2000 plots/s",
+        turns_measured * PERIOD / seconds,
+        "times faster than real time; half of the plots are false",
+    )
 
 
 def test_idle_message(benchmark, ratio):

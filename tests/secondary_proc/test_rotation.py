@@ -45,6 +45,15 @@ def test_it_is_found_within_half_a_turn_of_a_busy_sky():
     assert rotation.period == pytest.approx(4.0, rel=0.03)
 
 
+@pytest.mark.parametrize("per_second", [500.0, 5000.0])
+def test_it_is_found_and_kept_among_thousands_of_plots(per_second):
+    rotation = Rotation()
+    feed(rotation, *turning(np.random.default_rng(2), 4.0, 0.0, 12.0, per_second))
+    assert rotation.locked
+    assert rotation.locks == 1
+    assert rotation.period == pytest.approx(4.0, rel=2e-3)
+
+
 def test_three_targets_suffice():
     # Each at its own azimuth, moving; nothing else.
     random = np.random.default_rng(3)

@@ -27,6 +27,7 @@ _FINEST_GRID = 4096
 _LONGEST_SILENCE = 20.0  # periods
 _VERDICT_PLOTS = 12
 _REFINED_PLOTS = 36
+_SHORTEST_WINDOW = 0.25  # periods
 _UNKNOWN = 4.0  # s
 _LONGEST_DOUBT = 8.0  # periods
 
@@ -50,6 +51,7 @@ class Rotation:
         self._origin = 0.0
         self._news = 0
         self._latest = -np.inf
+        self._stride = 1
         self._gathered: list[tuple[FloatArray, FloatArray]] = []
         self._number_gathered = 0
         self._lost = -np.inf
@@ -125,14 +127,23 @@ class Rotation:
         self._number_gathered = 0
         if self.locked:
             self._check(times[-_WINDOW:], azimuths[-_WINDOW:])
-        self._times = np.concatenate([self._times, times])[-_WINDOW:]
-        self._azimuths = np.concatenate([self._azimuths, azimuths])[-_WINDOW:]
+        self._remember(times, azimuths)
         if self.locked and self._news >= _REFINED_PLOTS:
             self._news = 0
             self._refine()
         elif not self.locked and self._news >= _FEWEST:
             self._news = 0
             self._acquire()
+
+    def _remember(self, times: FloatArray, azimuths: FloatArray) -> None:
+        self._times = np.concatenate([self._times, times[:: self._stride]])
+        self._azimuths = np.concatenate([self._azimuths, azimuths[:: self._stride]])
+        # So many plots in so small a part of a turn show no rotation; then some of them stand for all.
+        shortest = _SHORTEST_WINDOW * (self.period if self.locked else LONGEST_PERIOD)
+        while len(self._times) > _WINDOW and self._times[-1] - self._times[-_WINDOW] < shortest:
+            self._stride *= 2
+            self._times, self._azimuths = self._times[::2], self._azimuths[::2]
+        self._times, self._azimuths = self._times[-_WINDOW:], self._azimuths[-_WINDOW:]
 
     def _check(self, times: FloatArray, azimuths: FloatArray) -> None:
         good = np.abs(self._residuals(times, azimuths)) < _TOLERANCE
@@ -146,6 +157,7 @@ class Rotation:
     def _restart(self, keep: int) -> None:
         self.locked = False
         self._good = self._good[:0]
+        self._stride = 1
         begin = max(0, len(self._times) - keep)
         self._times, self._azimuths = self._times[begin:], self._azimuths[begin:]
 
