@@ -11,10 +11,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from radar_common.figure_style import LINES
 from radar_eval.figures import style
+from radar_eval.studies.tracking_peers import PEERS
 
 _PARTS = {
     "localisation": style.TRACK_COLOUR,
@@ -27,7 +28,8 @@ _PANELS = {
     "switches": "Changes of identity",
     "seconds": "Run time, s",
 }
-_MOST_MARKED = 8
+_PEER_COLOURS = (LINES[1], LINES[4])
+_OTHERS = (LINES[2], LINES[3], LINES[5], LINES[6], LINES[7], "#94a3b8", "#5eead4")
 
 
 def draw_tracking(rows: Sequence[Mapping[str, Any]], cutoff: float) -> Figure:
@@ -86,11 +88,12 @@ def _draw_gospa(
         for part, colour in zip(parts, _PARTS.values(), strict=True):
             axes.barh(at, part / 1e6, left=left, height=height, color=colour)
             left += part / 1e6
-        axes.plot(left, at, _marker(number), color=_colour(number), markersize=4.0, clip_on=False)
-    axes.set_xscale("symlog", linthresh=0.5, linscale=1.5)
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{1e3 * np.sqrt(value):.0f}"))
-    axes.set_xticks([0.0, 0.0625, 0.25, 0.5, 1.0, 2.0, 4.0])
+        axes.plot(
+            left, at, color=_colour(trackers, number), clip_on=False, **_mark(trackers, number)
+        )
     axes.set_xlim(left=0.0)
+    roots = np.arange(0.0, 1e3 * np.sqrt(axes.get_xlim()[1]), 500.0)
+    axes.set_xticks((roots / 1e3) ** 2, [f"{root:.0f}" for root in roots])
     axes.set_title("GOSPA and its parts, m, by their squares")
 
 
@@ -104,26 +107,37 @@ def _draw_dots(
     for row in rows:
         number = trackers.index(row["tracker"])
         at = scenes.index(row["scene"]) + _place(trackers, number)
-        axes.plot(row[name], at, _marker(number), color=_colour(number), markersize=5.0)
+        axes.plot(row[name], at, color=_colour(trackers, number), **_mark(trackers, number))
     if name in ("position_rms_m", "seconds"):
         axes.set_xscale("log")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.xaxis.set_minor_locator(NullLocator())
     elif name == "switches":
         axes.set_xlim(left=-0.5)
     else:
         axes.set_xlim(left=0.95)
 
 
-def _colour(number: int) -> str:
-    return LINES[number % len(LINES)]
+def _is_peer(trackers: list[str], number: int) -> bool:
+    return trackers[number] in PEERS
 
 
-def _marker(number: int) -> str:
-    return "o" if number < _MOST_MARKED else "D"
+def _colour(trackers: list[str], number: int) -> str:
+    if _is_peer(trackers, number):
+        return _PEER_COLOURS[PEERS.index(trackers[number])]
+    return LINES[0] if number == 0 else _OTHERS[(number - 1) % len(_OTHERS)]
+
+
+def _mark(trackers: list[str], number: int) -> dict[str, Any]:
+    if _is_peer(trackers, number):
+        return {"marker": "D", "markersize": 5.0, "linestyle": ""}
+    return {"marker": "o", "markersize": 6.5 if number == 0 else 3.8, "linestyle": ""}
 
 
 def _legend(trackers: list[str]) -> list[Line2D | Patch]:
     entries: list[Line2D | Patch] = [
-        Line2D([], [], linestyle="", marker=_marker(n), color=_colour(n), label=name)
+        Line2D([], [], color=_colour(trackers, n), label=name, **_mark(trackers, n))
         for n, name in enumerate(trackers)
     ]
     return entries + [Patch(color=colour, label=part) for part, colour in _PARTS.items()]
