@@ -39,6 +39,7 @@ def draw_initiation(outcomes: Sequence[Outcome]) -> Figure:
                 line = [o for o in outcomes if (o.false_plots, o.family) == (density, family)]
                 _draw(axes, line, number)
             axes.set_yscale("log")
+            axes.margins(0.12, 0.08)
             axes.set_title(f"{density:g} false plots a turn")
             axes.set_xlabel("first plot to confirmation, turns")
         panels[0].set_ylabel("confirmed false tracks an hour")
@@ -76,7 +77,7 @@ def _draw(axes: Axes, line: Sequence[Outcome], number: int) -> None:
     delay = [o.delay for o in line]
     # Rules l of m are no sequence, as each trades l against m in its own way.
     kind = "-" if np.isfinite(line[0].wanted) else "None"
-    axes.plot(delay, height, kind, color=colour, linewidth=1.2)
+    axes.plot(delay, height, linestyle=kind, color=colour, linewidth=1.2)
     for x, y, outcome in zip(delay, height, line, strict=True):
         face = colour if outcome.false_tracks else "white"
         axes.plot(x, y, "o", markersize=5.5, color=colour, markerfacecolor=face)
