@@ -166,8 +166,6 @@ class LocatedEmitters:
             dtype EMITTER, shape (n,); `time_offset` still holds the pipeline's time.
         """
         rows = np.zeros(len(which), EMITTER)
-        if not len(which):
-            return rows
         estimate, record = self.estimate(which), self.columns[which]
         rows["x"], rows["y"], rows["vx"], rows["vy"] = estimate.state.T
         rows["z"] = record["height"]

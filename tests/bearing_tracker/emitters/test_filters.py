@@ -216,3 +216,13 @@ def test_gate_and_likelihood_agree(usual):
     assert distance[0, 0] == pytest.approx(0.003**2 / variance)
     assert logarithm[0, 0] == pytest.approx(-0.5 * (distance[0, 0] + np.log(2 * np.pi * variance)))
     assert list(distance.argmin(axis=0)) == [0, 3]
+
+
+@pytest.mark.parametrize(("name", "kind"), EVERY)
+def test_no_emitters_are_no_error(name, kind, usual):
+    chosen = filter_of(name, kind)
+    nobody = usual.run(chosen, 2, rows=slice(0, 0))
+    estimate = chosen.estimate(nobody)
+    assert estimate.state.shape == (0, 4)
+    assert estimate.covariance.shape == (0, 4, 4)
+    assert chosen.expected(nobody).azimuth.shape == (0,)
