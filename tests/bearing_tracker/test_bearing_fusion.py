@@ -154,14 +154,17 @@ def test_plots_serve_without_a_tracker(flight, make_bearings, start):
         fusion.process(Table(start, np.zeros(0)))
 
 
-def test_order_of_arrival_within_the_buffer_does_not_matter(channels, target, run):
+# The window ends inside a look of 0.7 s whenever a message arrives.
+@pytest.mark.parametrize("look", [0.0, 0.05, 0.7])
+def test_order_of_arrival_within_the_buffer_does_not_matter(channels, target, run, look):
+    parameters = FusionParameters(look=look)
     messages = channels([target], end=30.0).messages
     random = np.random.default_rng(2)
     delayed = [m.stamp + random.uniform(0.0, 0.9e9) * (m.rows.dtype == BEARING) for m in messages]
     shuffled = [messages[number] for number in np.argsort(delayed, kind="stable")]
     assert [m.stamp for m in shuffled] != [m.stamp for m in messages]
-    straight, times = run(BearingFusion(FusionParameters()), messages)
-    again, again_times = run(BearingFusion(FusionParameters()), shuffled)
+    straight, times = run(BearingFusion(parameters), messages)
+    again, again_times = run(BearingFusion(parameters), shuffled)
     for name in ("azimuth", "azimuth_std", "rate", "id"):
         assert straight[name] == pytest.approx(again[name])
     assert times == pytest.approx(again_times)

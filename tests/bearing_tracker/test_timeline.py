@@ -28,8 +28,8 @@ def arrive(timeline, times):
     for time in times:
         timeline.advance("finder", START + round(time * NANOSECONDS))
         timeline.put(sightings([time], azimuth=0.001 * time))
-        out.append(timeline.take())
-    out.append(timeline.take(timeline.now))
+        out.append(timeline.take(timeline.now - 1.0))
+    out.append(timeline.take_all())
     return np.concatenate(out)
 
 
@@ -54,9 +54,9 @@ def test_duplicates_and_late_ones_are_dropped_and_counted():
     timeline = Timeline(1.0, health)
     timeline.advance("finder", START)
     timeline.put(sightings([0.5, 0.5, 2.0]))
-    assert timeline.take()["time"].tolist() == [0.5]
+    assert timeline.take(1.0)["time"].tolist() == [0.5]
     timeline.put(sightings([0.9, 1.5]))
-    assert timeline.take(timeline.now)["time"].tolist() == [1.5, 2.0]
+    assert timeline.take_all()["time"].tolist() == [1.5, 2.0]
     assert health.dropped == {"duplicate sightings": 1, "sightings too late to be put in order": 1}
 
 

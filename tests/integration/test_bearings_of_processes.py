@@ -29,8 +29,7 @@ from radar_common.tables import (
 DURATION, RATE = 44.0, 4.0
 FUSION = ["run", "bearing_tracker", "bearing_fusion", "--ros-args"]
 # A busy machine is late by seconds, of which each is four on the clock of the data.
-# Without a width no look is cut in two where the buffer happens to end as a message arrives.
-PATIENT = ["-p", "buffer:=20.0", "-p", "look:=0.0"]
+PATIENT = ["-p", "buffer:=20.0"]
 for topic in (TRACKS_TOPIC, BEARINGS_TOPIC):
     PATIENT += ["-p", f"qos_overrides./{topic}.subscription.depth:=2000"]
 

@@ -72,7 +72,8 @@ class BearingFusion:
         sightings = self._sightings(table, seconds)
         self.health.count(f"{source} bearings in", int(np.count_nonzero(~sightings["ended"])))
         self._timeline.put(sightings)
-        return self._table(self._timeline.take(), table.stamp)
+        until = self._timeline.now - self.parameters.buffer
+        return self._table(self._timeline.take(until, self.parameters.look), table.stamp)
 
     def flush(self) -> Table:
         """Process what still waits for earlier bearings, as no message will follow.
@@ -80,7 +81,7 @@ class BearingFusion:
         Returns:
             The last fused bearings.
         """
-        return self._table(self._timeline.take(self._timeline.now), self._timeline.stamp)
+        return self._table(self._timeline.take_all(), self._timeline.stamp)
 
     def _begin(self) -> None:
         self._timeline = Timeline(self.parameters.buffer, self.health)
@@ -110,7 +111,7 @@ class BearingFusion:
             self._let_go(look["id"][ended])
             if not ended.all():
                 out.append(self._work(look[~ended]))
-        self._end(self._timeline.done)
+        self._end(self._timeline.settled)
         rows = np.concatenate(out, dtype=BEARING)
         rows["time_offset"] -= self._timeline.seconds(stamp)
         self.health.count("fused bearings out", len(rows))

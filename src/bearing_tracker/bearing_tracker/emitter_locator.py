@@ -126,7 +126,7 @@ class EmitterLocator:
         for look in looks(placed, parameters.look, parameters.maximum_look, self.health):
             out.append(self._end(float(look["time"][0])))
             heard = np.union1d(heard, self._work(look))
-        out.append(self._end(self._timeline.done))
+        out.append(self._end(self._timeline.settled))
         shown = np.flatnonzero(np.isin(self._emitters.columns["id"], heard))
         out.append(self._emitters.rows(shown))
         rows = np.concatenate([_NO_ROWS, *out], dtype=EMITTER)
@@ -135,10 +135,12 @@ class EmitterLocator:
         return Table(stamp, rows, parameters.frame)
 
     def _take(self, *, everything: bool) -> Rows:
+        if everything:
+            return self._timeline.take_all()
         # Bearings wait until a fix follows them, but not for ever.
         now, parameters = self._timeline.now, self.parameters
         until = max(min(now - parameters.buffer, self._path.end), now - parameters.odometry_wait)
-        return self._timeline.take(now if everything else until)
+        return self._timeline.take(until, parameters.look)
 
     def _place(self, sightings: Rows) -> Rows:
         placed = np.zeros(len(sightings), PLACED)

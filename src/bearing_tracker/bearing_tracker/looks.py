@@ -38,6 +38,23 @@ def looks(rows: Rows, span: float, most: int, health: Health) -> Iterator[Rows]:
             yield single[:most]
 
 
+def whole_looks(times: npt.NDArray[np.float64], span: float, until: float) -> int:
+    """Count the sightings of looks that are over.
+
+    Args:
+        times: of sightings, ascending, seconds, shape (n,).
+        span: seconds that a look lasts at most.
+        until: no earlier sighting can follow any more, seconds.
+
+    Returns:
+        Index of the first sighting of a look that may still grow, n if there is none.
+    """
+    begin = 0
+    while begin < len(times) and times[begin] + span <= until:
+        begin = int(np.searchsorted(times, times[begin] + span, side="right"))
+    return begin
+
+
 def _each_once(rows: Rows) -> Rows:
     # The end of a track may share a look with its last plot.
     key = np.where(rows["ended"], -rows["id"], rows["id"])

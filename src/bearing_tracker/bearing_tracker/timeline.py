@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from bearing_tracker.looks import whole_looks
 from bearing_tracker.sightings import SIGHTING
 from radar_common.health import Health
 from radar_common.tables import NANOSECONDS
@@ -35,7 +36,9 @@ class Timeline:
         self.now = -np.inf
         """Latest time that any message told, seconds."""
         self.done = -np.inf
-        """All sightings up to this time have been handed out."""
+        """A sighting up to this time is late."""
+        self.settled = -np.inf
+        """No sighting up to this time will be handed out any more."""
         self._health = health
         self._latest: dict[str, float] = {}
         self._epoch: int | None = None
@@ -115,17 +118,31 @@ class Timeline:
         if len(rows):
             self.now = max(self.now, float(rows["time"][-1]))
 
-    def take(self, until: float | None = None) -> Rows:
+    def take(self, until: float, span: float = 0.0) -> Rows:
         """Hand out what no longer has to wait.
 
+        A look is never cut in two, wherever the window ends: else the result would depend on when messages arrive.
+
         Args:
-            until: seconds, no later than `now`; None for the end of the window.
+            until: seconds, no later than `now`.
+            span: that a look lasts at most, seconds; one that may still grow stays.
 
         Returns:
             dtype SIGHTING, in order of time.
         """
-        until = self.now - self.window if until is None else until
-        count = int(np.searchsorted(self._waiting["time"], until, side="right"))
+        count = whole_looks(self._waiting["time"], span, until)
         taken, self._waiting = self._waiting[:count], self._waiting[count:]
-        self.done = max(self.done, until)
+        self.done = self.settled = max(self.done, until)
+        if len(self._waiting):
+            self.settled = min(self.done, float(self._waiting["time"][0]))
+        return taken
+
+    def take_all(self) -> Rows:
+        """Hand out everything, as nothing will follow.
+
+        Returns:
+            dtype SIGHTING, in order of time.
+        """
+        taken, self._waiting = self._waiting, self._waiting[:0]
+        self.done = self.settled = max(self.done, self.now)
         return taken
