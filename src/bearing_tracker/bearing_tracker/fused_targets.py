@@ -31,6 +31,10 @@ TARGET = np.dtype(
         ("partner", "<i8", (2,)),  # identity in the active and in the passive channel, 0 for none
         ("misfits", "<i8", (2,)),  # of that channel in a row on one side, negative to the left
         ("range", "<f8"),  # m; NaN while the radar has never seen it
+        ("ranged", "<f8"),  # when that was, s
+        ("closing_speed", "<f8"),  # m/s at that time; NaN while not known
+        ("axis", "<f8"),  # direction that it has kept to in the mean, rad in [-pi, pi)
+        ("bearings", "<i8"),  # that the mean is of
         ("hits", "<i8"),
         ("confirmed", "?"),
         ("mean", "<f8", (2,)),  # azimuth in [-pi, pi) and its rate, rad and rad/s
@@ -97,9 +101,11 @@ class FusedTargets:
         """
         before, channel = len(self), sightings["channel"][0]
         columns = np.zeros(len(sightings), TARGET)
-        columns["id"], columns["range"], columns["hits"] = ids, sightings["range"], 1
+        columns["id"], columns["hits"], columns["bearings"] = ids, 1, 1
+        columns["range"], columns["closing_speed"] = sightings["range"], sightings["closing_speed"]
         columns["heard"] = -np.inf
-        columns["time"] = columns["heard"][:, channel] = sightings["time"]
+        columns["time"] = columns["heard"][:, channel] = columns["ranged"] = sightings["time"]
+        columns["axis"] = wrap_pi(sightings["azimuth"])
         columns["partner"][:, channel] = sightings["id"]
         started = self.model.start(wrap_pi(sightings["azimuth"]), sightings["azimuth_std"])
         self._belief = join([self._belief, started]) if before else started
@@ -120,7 +126,11 @@ class FusedTargets:
         """
         part, channel = self.columns[which], int(sightings["channel"][0])
         seconds = np.maximum(sightings["time"] - part["time"], 0.0)
-        part["range"] = np.where(np.isnan(sightings["range"]), part["range"], sightings["range"])
+        ranged = ~np.isnan(sightings["range"])
+        part["range"][ranged] = sightings["range"][ranged]
+        part["ranged"][ranged] = (part["time"] + seconds)[ranged]
+        timed = ~np.isnan(sightings["closing_speed"])
+        part["closing_speed"][timed] = sightings["closing_speed"][timed]
         mean, covariance, motion = self._predicted(part, seconds)
         # Within a look a bearing may be older than the target's last; the rate carries it over.
         late = part["time"] + seconds - sightings["time"]
@@ -141,6 +151,7 @@ class FusedTargets:
         part["heard"][:, channel] = part["time"]
         self.columns[which] = part
         self._remember(which, updated)
+        self._average(which, seconds)
 
     def rows(self, which: IndexArray) -> Rows:
         """Write targets as rows of the table.
@@ -209,10 +220,25 @@ class FusedTargets:
 
     def _predicted(self, part: Rows, seconds: FloatArray) -> tuple[FloatArray, FloatArray, Motion]:
         # The motion is the same under every hypothesis, so the moments of their mixture move like one state.
-        motion = self.model.motion(seconds, part["range"])
+        motion = self.model.motion(seconds, part)
         turned = np.swapaxes(motion.transition, 1, 2)
-        mean = (motion.transition @ part["mean"][..., None])[..., 0]
+        apart = part["mean"]
+        if motion.axis is not None:
+            apart = apart - motion.axis
+            apart[:, 0] = wrap_pi(apart[:, 0])
+        mean = (motion.transition @ apart[..., None])[..., 0]
+        if motion.axis is not None:
+            mean += motion.axis
         return mean, motion.transition @ part["covariance"] @ turned + motion.noise, motion
+
+    def _average(self, which: IndexArray, seconds: FloatArray) -> None:
+        # A mean of all bearings at first, then one that forgets.
+        part = self.columns[which]
+        part["bearings"] += 1
+        share = np.maximum(1.0 / part["bearings"], seconds / self._parameters.axis_time)
+        part["axis"] += np.minimum(share, 1.0) * wrap_pi(part["mean"][:, 0] - part["axis"])
+        part["axis"] = wrap_pi(part["axis"])
+        self.columns[which] = part
 
     def _remember(self, which: IndexArray, belief: Belief) -> None:
         output: Output = "map" if self._parameters.output == "map" else "mmse"

@@ -11,12 +11,18 @@ import numpy.typing as npt
 from bearing_tracker.fusion import FILTERS, Belief, Motion
 from bearing_tracker.fusion.azimuth_channels import azimuth_channel, azimuth_pair
 from bearing_tracker.fusion.chain import chain_after, shares_and_memory
+from bearing_tracker.fusion.guidance import (
+    decay_of_approach,
+    guidance_covariance,
+    guidance_motion,
+)
 from bearing_tracker.fusion.surveillance import surveillance_motion
 
 if TYPE_CHECKING:
     from bearing_tracker.fusion_parameters import FusionParameters
 
 FloatArray = npt.NDArray[np.float64]
+Rows = npt.NDArray[np.void]
 
 _SECOND = 1.0
 
@@ -86,28 +92,49 @@ class FusionModel:
         """
         mean = np.stack([azimuth, np.zeros(len(azimuth))], axis=1)
         covariance = np.zeros((len(azimuth), 2, 2))
-        covariance[:, 0, 0], covariance[:, 1, 1] = std**2, self._parameters.rate_std**2
+        covariance[:, 0, 0], covariance[:, 1, 1] = std**2, self._rate_variance()
         active, passive = (np.array(shares) for shares, _ in self._chains)
         return self.filter.start(mean, covariance, active, passive)
 
-    def motion(self, seconds: FloatArray, distance: FloatArray) -> Motion:
+    def motion(self, seconds: FloatArray, targets: Rows) -> Motion:
         """Let time pass.
 
         Args:
             seconds: not negative, shape (n,).
-            distance: metres, shape (n,); NaN where it is not known.
+            targets: their time, range, closing speed and axis, dtype TARGET, shape (n,).
 
         Returns:
             Motion of the states and of both channels' chains.
         """
-        parameters = self._parameters
+        guided = self._parameters.model == "guidance"
+        motion = self._guided(seconds, targets) if guided else self._surveyed(seconds, targets)
+        active, passive = (chain_after(shares, memory, seconds) for shares, memory in self._chains)
+        return Motion(motion.transition, motion.noise, motion.axis, active, passive)
+
+    def _surveyed(self, seconds: FloatArray, targets: Rows) -> Motion:
+        parameters, distance = self._parameters, targets["range"]
         distance = np.where(np.isnan(distance), parameters.unknown_range, distance)
-        motion = surveillance_motion(
+        return surveillance_motion(
             seconds,
             np.maximum(distance, parameters.minimum_range),
             parameters.acceleration,
             parameters.acceleration_time,
             parameters.speed,
         )
-        active, passive = (chain_after(shares, memory, seconds) for shares, memory in self._chains)
-        return Motion(motion.transition, motion.noise, None, active, passive)
+
+    def _guided(self, seconds: FloatArray, targets: Rows) -> Motion:
+        parameters, closing = self._parameters, targets["closing_speed"]
+        # The range goes on falling while the radar does not see the target.
+        since = targets["time"] - targets["ranged"]
+        distance = np.maximum(targets["range"] - closing * since, parameters.minimum_range)
+        decay = decay_of_approach(distance, closing, parameters.unknown_decay)
+        return guidance_motion(
+            seconds, parameters.swing_frequency, decay, parameters.swing_std, targets["axis"]
+        )
+
+    def _rate_variance(self) -> float:
+        parameters = self._parameters
+        if parameters.model == "surveillance":
+            return parameters.rate_std**2
+        swing = parameters.swing_frequency, parameters.unknown_decay, parameters.swing_std
+        return float(guidance_covariance(*swing)[1, 1])

@@ -81,6 +81,12 @@ class FusionParameters(Parameters):
         low=2,
         high=1000,
     )
+    model: str = parameter(
+        "surveillance",
+        "motion of the azimuth: a nearly constant rate, or a line of sight that swings about an axis while the target "
+        "comes nearer",
+        choices=("surveillance", "guidance"),
+    )
     acceleration: float = parameter(
         3.0, "lateral acceleration of targets, rms", unit="m/s^2", low=0.0, high=100.0
     )
@@ -100,9 +106,38 @@ class FusionParameters(Parameters):
     minimum_range: float = parameter(
         1000.0, "smallest range believed; nearer targets turn too fast", unit="m", low=1.0, high=1e6
     )
+    swing_frequency: float = parameter(
+        0.16,
+        "frequency at which the line of sight swings (model guidance)",
+        unit="rad/s",
+        low=1e-4,
+        high=100.0,
+    )
+    swing_std: float = parameter(
+        0.05,
+        "rms angle of the line of sight from its axis (model guidance)",
+        unit="rad",
+        low=1e-6,
+        high=1.0,
+    )
+    unknown_decay: float = parameter(
+        0.003,
+        "decay of the swing of targets whose range and closing speed are not known or that do not come nearer, else it "
+        "is twice the closing speed over the range (model guidance)",
+        unit="1/s",
+        low=0.0,
+        high=100.0,
+    )
+    axis_time: float = parameter(
+        300.0,
+        "time over which the axis is averaged (model guidance)",
+        unit="s",
+        low=1.0,
+        high=1e6,
+    )
     rate_std: float = parameter(
         0.01,
-        "rate of the azimuth of a new target, standard deviation",
+        "rate of the azimuth of a new target, standard deviation (model surveillance)",
         unit="rad/s",
         low=1e-6,
         high=10.0,

@@ -25,6 +25,7 @@ LARGEST_AZIMUTH_STD = 0.5
 
 _NEAREST = 1.0
 _FARTHEST = 1e7
+_FASTEST = 1e4
 
 SIGHTING = np.dtype(
     [
@@ -34,6 +35,7 @@ SIGHTING = np.dtype(
         ("elevation", "<f8"),  # rad; NaN where not measured
         ("elevation_std", "<f8"),  # rad; NaN where not measured
         ("range", "<f8"),  # m; NaN where not measured
+        ("closing_speed", "<f8"),  # m/s, positive where the range falls; NaN where not measured
         ("id", "<i8"),  # of the sensor; 0 where it gives none
         ("channel", "u1"),  # BearingChannel
         ("ended", "?"),  # the sensor has given this identity up
@@ -119,6 +121,7 @@ def from_plots(
     source = _at_most(source, most, "plots over the limit of a message", health)
     rows = _empty(source, stamp, source["azimuth"], deviations.of(source["azimuth_std"]))
     rows["channel"], rows["range"] = BearingChannel.ACTIVE, _believable(source["range"])
+    rows["closing_speed"] = _believable_speed(-source["radial_speed"].astype(float))
     return _sound(rows, source["time_offset"], [], "plots", health)
 
 
@@ -162,6 +165,8 @@ def from_tracks(
         told = _across(source["covariance"], east, north)
     rows = _empty(source, stamp, azimuth, deviations.of(told))
     rows["range"], rows["id"] = _believable(distance), source["id"]
+    receding = (east * source["vx"] + north * source["vy"]) / np.maximum(distance, _NEAREST)
+    rows["closing_speed"] = _believable_speed(-receding)
     rows["channel"], rows["ended"] = BearingChannel.ACTIVE, ended
     rows["azimuth"][ended], rows["azimuth_std"][ended] = np.nan, 0.0
     lost = ~ended & np.isnan(rows["range"])
@@ -183,6 +188,10 @@ def _believable(distance: npt.NDArray[np.floating]) -> FloatArray:
     return np.where((distance >= _NEAREST) & (distance <= _FARTHEST), distance, np.nan)
 
 
+def _believable_speed(speed: FloatArray) -> FloatArray:
+    return np.where(np.abs(speed) <= _FASTEST, speed, np.nan)
+
+
 def _at_most(source: Rows, most: int, reason: str, health: Health) -> Rows:
     health.drop(reason, max(len(source) - most, 0))
     return source[:most]
@@ -194,7 +203,7 @@ def _empty(
     rows = np.zeros(len(source), SIGHTING)
     rows["time"] = stamp + source["time_offset"]
     rows["azimuth"], rows["azimuth_std"] = azimuth, deviation
-    for name in ("elevation", "elevation_std", "range"):
+    for name in ("elevation", "elevation_std", "range", "closing_speed"):
         rows[name] = np.nan
     return rows
 

@@ -63,7 +63,8 @@ def join_twins(
     for name in ("partner", "heard"):
         columns[name][kept] = np.maximum(columns[name][kept], columns[name][gone])
     ranged = np.isnan(columns["range"][kept])
-    columns["range"][kept[ranged]] = columns["range"][gone[ranged]]
+    for name in ("range", "ranged", "closing_speed"):
+        columns[name][kept[ranged]] = columns[name][gone[ranged]]
     columns["twin"][kept] = columns["agreed"][kept] = columns["misfits"][kept] = 0
     mask = np.zeros(len(columns), bool)
     mask[gone] = True

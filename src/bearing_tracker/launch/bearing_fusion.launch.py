@@ -16,7 +16,9 @@ def generate_launch_description() -> LaunchDescription:
     config = Path(get_package_share_directory("bearing_tracker")) / "config" / "bearing_fusion.yaml"
     return LaunchDescription(
         [
-            DeclareLaunchArgument("name", default_value="bearing_fusion", description="name of the node"),
+            DeclareLaunchArgument(
+                "name", default_value="bearing_fusion", description="name of the node"
+            ),
             DeclareLaunchArgument("namespace", default_value="", description="its namespace"),
             DeclareLaunchArgument(
                 "params", default_value=str(config), description="ROS 2 parameter file"

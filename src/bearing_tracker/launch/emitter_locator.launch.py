@@ -13,10 +13,14 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    config = Path(get_package_share_directory("bearing_tracker")) / "config" / "emitter_locator.yaml"
+    config = (
+        Path(get_package_share_directory("bearing_tracker")) / "config" / "emitter_locator.yaml"
+    )
     return LaunchDescription(
         [
-            DeclareLaunchArgument("name", default_value="emitter_locator", description="name of the node"),
+            DeclareLaunchArgument(
+                "name", default_value="emitter_locator", description="name of the node"
+            ),
             DeclareLaunchArgument("namespace", default_value="", description="its namespace"),
             DeclareLaunchArgument(
                 "params", default_value=str(config), description="ROS 2 parameter file"
