@@ -6,16 +6,17 @@ from __future__ import annotations
 import dataclasses
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from radar_common.bag import BagWriter, read_odometry, topics
+from radar_common.bag import ODOMETRY, BagWriter, read_messages, read_odometry, topics
 from radar_common.cloud import TableError
 from radar_common.frames import wrap_pi
 from radar_common.odometry import PlatformState, decode_odometry, encode_odometry
 from radar_common.ros.odometry import ODOMETRY_TYPES
-from radar_common.tables import PLATFORM_TOPIC
+from radar_common.tables import PLATFORM_TOPIC, PLOT, PLOTS_TOPIC, Table
 
 METRES = st.floats(-1e6, 1e6)
 STATES = st.builds(
@@ -98,3 +99,15 @@ def test_a_covariance_counts_only_if_positive_definite(xx, xy, yy, variance):
     message = encode_odometry(PlatformState(0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), ODOMETRY_TYPES)
     message.pose.covariance[[0, 1, 6, 7]] = xx, xy, xy, yy
     assert decode_odometry(message).position_variance == variance
+
+
+def test_tables_and_states_come_in_one_order(tmp_path):
+    with BagWriter(tmp_path / "bag") as writer:
+        for second in range(3):
+            state = PlatformState(second * 10**9, float(second), 0.0, 0.0, 0.0, 0.0, 0.0)
+            writer.write_odometry(PLATFORM_TOPIC, state)
+            writer.write(PLOTS_TOPIC, Table(second * 10**9 + 5, np.zeros(second, PLOT)))
+    read = list(read_messages(tmp_path / "bag", {PLOTS_TOPIC: PLOT}, odometry=PLATFORM_TOPIC))
+    assert [topic for topic, _ in read] == [PLATFORM_TOPIC, PLOTS_TOPIC] * 3
+    assert [content.stamp for _, content in read] == sorted(content.stamp for _, content in read)
+    assert topics(tmp_path / "bag", ODOMETRY) == {PLATFORM_TOPIC: 3}

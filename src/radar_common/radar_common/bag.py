@@ -170,24 +170,9 @@ def read_tables(
     Raises:
         BagError: the bag is missing, truncated or not readable.
     """
-    try:
-        with AnyReader([Path(path)], default_typestore=_STORE) as reader:
-            wanted = {f"/{topic}": topic for topic in expected}
-            connections = [
-                c for c in reader.connections if c.topic in wanted and c.msgtype == CLOUD
-            ]
-            if not connections:
-                return
-            for connection, _, data in reader.messages(connections):
-                topic = wanted[connection.topic]
-                try:
-                    message = reader.deserialize(data, CLOUD)
-                    yield topic, decode(message, expected[topic])
-                except (TableError, SerdeError) as error:
-                    if health is not None:
-                        health.drop(f"{topic}: {error}")
-    except (AnyReaderError, OSError) as error:
-        raise BagError(f"bag {path}: {error}") from error
+    for topic, content in read_messages(path, expected, health=health):
+        if isinstance(content, Table):
+            yield topic, content
 
 
 def read_odometry(
@@ -206,16 +191,48 @@ def read_odometry(
     Raises:
         BagError: the bag is missing, truncated or not readable.
     """
+    for _, content in read_messages(path, {}, odometry=topic, health=health):
+        if isinstance(content, PlatformState):
+            yield content
+
+
+def read_messages(
+    path: str | Path,
+    expected: Mapping[str, np.dtype[np.void] | None],
+    *,
+    odometry: str | None = None,
+    health: Health | None = None,
+) -> Iterator[tuple[str, Table | PlatformState]]:
+    """Read tables and a platform's states together, in order of their log time.
+
+    Args:
+        path: folder of the bag.
+        expected: topics of tables, as for `read_tables`.
+        odometry: topic of the states; None for none.
+        health: where dropped messages are counted.
+
+    Yields:
+        (topic, table or state).
+
+    Raises:
+        BagError: the bag is missing, truncated or not readable.
+    """
+    wanted = {(f"/{topic}", CLOUD): topic for topic in expected}
+    if odometry is not None:
+        wanted[f"/{odometry}", ODOMETRY] = odometry
     try:
         with AnyReader([Path(path)], default_typestore=_STORE) as reader:
-            connections = [
-                c for c in reader.connections if (c.topic, c.msgtype) == (f"/{topic}", ODOMETRY)
-            ]
-            if not connections:
-                return
-            for _, _, data in reader.messages(connections):
+            connections = [c for c in reader.connections if (c.topic, c.msgtype) in wanted]
+            # An empty list would stand for all of them.
+            for connection, _, data in reader.messages(connections) if connections else ():
+                kind = connection.msgtype
+                topic = wanted[connection.topic, kind]
                 try:
-                    yield decode_odometry(reader.deserialize(data, ODOMETRY))
+                    message = reader.deserialize(data, kind)
+                    if kind == ODOMETRY:
+                        yield topic, decode_odometry(message)
+                    else:
+                        yield topic, decode(message, expected[topic])
                 except (TableError, SerdeError) as error:
                     if health is not None:
                         health.drop(f"{topic}: {error}")
@@ -223,11 +240,12 @@ def read_odometry(
         raise BagError(f"bag {path}: {error}") from error
 
 
-def topics(path: str | Path) -> dict[str, int]:
-    """List the topics of a bag that carry tables.
+def topics(path: str | Path, kind: str = CLOUD) -> dict[str, int]:
+    """List the topics of a bag that carry tables, or messages of another type.
 
     Args:
         path: folder of the bag.
+        kind: type of the messages.
 
     Returns:
         Topic without the leading slash and number of messages.
@@ -240,7 +258,7 @@ def topics(path: str | Path) -> dict[str, int]:
             return {
                 connection.topic.removeprefix("/"): connection.msgcount
                 for connection in reader.connections
-                if connection.msgtype == CLOUD
+                if connection.msgtype == kind
             }
     except (AnyReaderError, OSError) as error:
         raise BagError(f"bag {path}: {error}") from error
