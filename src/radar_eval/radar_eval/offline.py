@@ -1,97 +1,118 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The chain run from a bag into a bag, through the same pipelines as the nodes, as fast as the machine allows."""
+"""The nodes run from a bag into a bag, through the same pipelines, as fast as the machine allows."""
 
 from __future__ import annotations
 
 import shutil
-import time
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Any, Protocol
 
-from primary_proc.parameters import ExtractorParameters
-from primary_proc.plot_extractor import PlotExtractor
-from radar_common.bag import BagWriter, read_tables, topics
+from radar_common.bag import ODOMETRY, BagWriter, read_messages, topics
 from radar_common.cloud import TableError
 from radar_common.health import Health
-from radar_common.parameters import from_file
+from radar_common.odometry import PlatformState
 from radar_common.tables import (
+    BEARING,
+    BEARINGS_TOPIC,
+    CHANNEL_TRUTH_TOPIC,
+    PLATFORM_TOPIC,
     PLOT,
     PLOTS_TOPIC,
     SWEEPS_TOPIC,
+    TRACK,
     TRACKS_TOPIC,
     TRUTH,
     TRUTH_TOPIC,
     Table,
 )
+from radar_eval.bearing_chain import BearingChain
 from radar_eval.errors import EvaluationError
-from radar_eval.run_record import RunRecord, StageRecord, stage_record
-from secondary_proc.parameters import TrackerParameters
-from secondary_proc.tracker import Tracker
+from radar_eval.radar_chain import RadarChain
+from radar_eval.run_record import RunRecord, stage_record
+from radar_eval.stages import Stage
 
-EXTRACTOR_NODE, TRACKER_NODE, READER = "plot_extractor", "tracker", "bag"
+READER = "bag"
 
-Progress = Callable[..., Iterable[tuple[str, Table]]]
+_LAYOUTS = {
+    SWEEPS_TOPIC: None,
+    PLOTS_TOPIC: PLOT,
+    TRACKS_TOPIC: TRACK,
+    BEARINGS_TOPIC: BEARING,
+    TRUTH_TOPIC: TRUTH,
+    CHANNEL_TRUTH_TOPIC: BEARING,
+}
+_COPIED = (TRACKS_TOPIC, BEARINGS_TOPIC, TRUTH_TOPIC, CHANNEL_TRUTH_TOPIC)
+
+Content = Table | PlatformState
+Progress = Callable[..., Iterable[tuple[str, Content]]]
 
 
-class Pipeline(Protocol):
-    """What a processing package offers: tables in, tables out."""
+class _Run:
+    """The pipelines that a bag has input for, joined by topics as the nodes are."""
 
-    def process(self, table: Table, /) -> Table:
-        """Take in one message.
+    def __init__(self, bag: str | Path, parameters: str | Path | None) -> None:
+        # A topic that nobody spoke on is as good as none, but what there is of sweeps or plots must be of use.
+        tables = topics(bag)
+        platform = topics(bag, ODOMETRY).get(PLATFORM_TOPIC, 0) > 0
+        sources = [topic for topic in (SWEEPS_TOPIC, PLOTS_TOPIC) if topic in tables][:1]
+        bearings = tables.get(BEARINGS_TOPIC, 0) > 0
+        if not sources and not bearings:
+            raise EvaluationError(
+                f"bag {bag} holds neither /{SWEEPS_TOPIC} nor /{PLOTS_TOPIC} nor /{BEARINGS_TOPIC}"
+            )
+        self.radar = RadarChain(sources[0], parameters) if sources else None
+        # A finder without a radar on a moving platform has nothing to fuse.
+        active = bool(sources) or tables.get(TRACKS_TOPIC, 0) > 0
+        self.finder = BearingChain(
+            fuse=bearings and (active or not platform),
+            locate=bearings and platform,
+            parameters=parameters,
+        )
+        self.sources = [*sources, *([BEARINGS_TOPIC] if bearings else [])]
+        used = {*sources, TRUTH_TOPIC}
+        if bearings:
+            used |= {BEARINGS_TOPIC, CHANNEL_TRUTH_TOPIC}
+            # Tracks of the bag count only where none are made of plots.
+            used |= set() if sources else {TRACKS_TOPIC}
+        self.expected = {topic: kind for topic, kind in _LAYOUTS.items() if topic in used}
+        self.odometry = PLATFORM_TOPIC if bearings and platform else None
+        self.total = sum(tables.get(topic, 0) for topic in self.expected)
 
-        Args:
-            table: message.
+    @property
+    def stages(self) -> dict[str, Stage]:
+        """All pipelines by the names of their nodes."""
+        return (self.radar.stages if self.radar else {}) | self.finder.stages
 
-        Returns:
-            What came out.
-        """
+    def process(self, topic: str, content: Content) -> Iterator[tuple[str, Content]]:
+        """Pass a message through all that hear it, and what comes out through all that hear that."""
+        if topic in _COPIED or isinstance(content, PlatformState):
+            yield topic, content
+            yield from self.finder.process(topic, content)
+        elif self.radar is not None:
+            yield from self._joined(self.radar.process(content))
 
-    def flush(self) -> Table:
+    def flush(self) -> Iterator[tuple[str, Content]]:
         """Give out what still waits for messages to come."""
+        if self.radar is not None:
+            yield from self._joined(self.radar.flush())
+        yield from self.finder.flush()
 
+    def _joined(self, tables: Iterable[tuple[str, Table]]) -> Iterator[tuple[str, Content]]:
+        for topic, table in tables:
+            yield topic, table
+            yield from self.finder.process(topic, table)
 
-@dataclass(slots=True)
-class Stage:
-    """A pipeline with its health and the time that it took."""
-
-    pipeline: Pipeline
-    health: Health
-    seconds: float = field(default=0.0, init=False)
-
-    def process(self, table: Table) -> Table:
-        """Take in one message, on the clock.
-
-        Args:
-            table: message.
-
-        Returns:
-            What came out.
-        """
-        return self._timed(lambda: self.pipeline.process(table))
-
-    def flush(self) -> Table:
-        """Give out what is left, on the clock.
-
-        Returns:
-            What came out.
-        """
-        return self._timed(self.pipeline.flush)
-
-    def record(self) -> StageRecord:
-        """Note down how the stage fared.
-
-        Returns:
-            The record.
-        """
-        return stage_record(self.seconds, self.health)
-
-    def _timed(self, work: Callable[[], Table]) -> Table:
-        begin = time.perf_counter()
-        table = work()
-        self.seconds += time.perf_counter() - begin
-        return table
+    def record(self, reader: Health) -> RunRecord:
+        """Note down how the run fared."""
+        plots, seconds = 0, 0.0
+        if self.radar is not None:
+            plots = self.radar.plots
+            seconds = sum(stage.seconds for stage in self.radar.stages.values())
+        return RunRecord(
+            plots / seconds if seconds else float("nan"),
+            {READER: stage_record(0.0, reader)}
+            | {name: stage.record() for name, stage in self.stages.items()},
+        )
 
 
 def run_offline(
@@ -102,14 +123,15 @@ def run_offline(
     storage: str = "mcap",
     progress: Progress,
 ) -> RunRecord:
-    """Process a bag of sweeps, or of plots where it has no sweeps.
+    """Process a bag: sweeps, or plots where it has no sweeps, and the bearings of a direction finder.
 
-    The new bag holds plots, tracks and the truth that was there. It depends on nothing but the bag and the parameters.
+    The new bag holds plots and tracks; passive and fused bearings, emitters and the platform; and the truth that was
+    there. It depends on nothing but the bag and the parameters.
 
     Args:
         bag: folder to read.
         out: folder to write, which must not exist yet.
-        parameters: ROS 2 parameter file with sections for plot_extractor and tracker; None takes the defaults.
+        parameters: ROS 2 parameter file with a section for each node; None takes the defaults.
         storage: "mcap" or "sqlite3".
         progress: wraps the iteration over the messages, given their number as `total`.
 
@@ -117,35 +139,26 @@ def run_offline(
         Throughput and health, also written beside the bag's files.
 
     Raises:
-        EvaluationError: the bag holds neither sweeps nor plots that can be read.
+        EvaluationError: the bag holds no sweeps, plots or bearings that can be read.
         BagError: the bag cannot be read, or the new one cannot be written.
         ParameterError: the parameter file is wrong.
     """
     writer = BagWriter(out, storage=storage)
-    held = topics(bag)
-    source = SWEEPS_TOPIC if SWEEPS_TOPIC in held else PLOTS_TOPIC
-    if source not in held:
-        raise EvaluationError(f"bag {bag} holds neither /{SWEEPS_TOPIC} nor /{PLOTS_TOPIC}")
-    stages = _stages(source, parameters)
-    wanted = {source: None if source == SWEEPS_TOPIC else PLOT, TRUTH_TOPIC: TRUTH}
+    run = _Run(bag, parameters)
     reader = Health()
-    total = sum(number for topic, number in held.items() if topic in wanted)
     try:
         with writer:
-            messages = progress(read_tables(bag, wanted, reader), total=total)
-            plots = sum(_pass_on(writer, stages, reader, *message) for message in messages)
-            plots += _flush(writer, stages)
-        _require_input(bag, source, reader)
+            messages = read_messages(bag, run.expected, odometry=run.odometry, health=reader)
+            for topic, content in progress(messages, total=run.total):
+                _pass_on(writer, run, reader, topic, content)
+            _write(writer, run.flush())
+        for source in run.sources:
+            _require_input(bag, source, reader)
     except BaseException:
         # Half a bag would only stand in the way of the next attempt.
         shutil.rmtree(out, ignore_errors=True)
         raise
-    seconds = sum(stage.seconds for stage in stages.values())
-    record = RunRecord(
-        plots / seconds if seconds else float("nan"),
-        {READER: stage_record(0.0, reader)}
-        | {name: stage.record() for name, stage in stages.items()},
-    )
+    record = run.record(reader)
     record.write(out)
     return record
 
@@ -162,56 +175,18 @@ def _require_input(bag: str | Path, source: str, reader: Health) -> None:
         )
 
 
-def _pass_on(
-    writer: BagWriter, stages: dict[str, Stage], reader: Health, topic: str, table: Table
-) -> int:
-    plots = 0
+def _pass_on(writer: BagWriter, run: _Run, reader: Health, topic: str, content: Content) -> None:
     try:
-        if topic == TRUTH_TOPIC:
-            writer.write(TRUTH_TOPIC, table)
-        else:
-            plots = _process(writer, stages, topic, table)
+        _write(writer, run.process(topic, content))
         reader.count(f"messages on /{topic}")
     except TableError as error:
         # As a live node does: what is no table of its kind is dropped and counted.
         reader.drop(f"{topic}: {error}")
-    return plots
 
 
-def _stages(source: str, parameters: str | Path | None) -> dict[str, Stage]:
-    stages: dict[str, Stage] = {}
-    if source == SWEEPS_TOPIC:
-        stages[EXTRACTOR_NODE] = _stage(
-            PlotExtractor, ExtractorParameters, parameters, EXTRACTOR_NODE
-        )
-    stages[TRACKER_NODE] = _stage(Tracker, TrackerParameters, parameters, TRACKER_NODE)
-    return stages
-
-
-def _stage(pipeline: Any, kind: Any, parameters: str | Path | None, node: str) -> Stage:
-    values = kind() if parameters is None else from_file(kind, parameters, node)
-    health = Health()
-    return Stage(pipeline(values, health), health)
-
-
-def _process(writer: BagWriter, stages: dict[str, Stage], topic: str, table: Table) -> int:
-    if topic == SWEEPS_TOPIC:
-        table = stages[EXTRACTOR_NODE].process(table)
-    # A message may carry more fields than a plot has; the pipelines take plots and nothing else.
-    table = Table(table.stamp, table.rows.astype(PLOT, copy=False), table.frame_id)
-    writer.write(PLOTS_TOPIC, table)
-    tracks = stages[TRACKER_NODE].process(table)
-    writer.write(TRACKS_TOPIC, tracks)
-    return len(table.rows)
-
-
-def _flush(writer: BagWriter, stages: dict[str, Stage]) -> int:
-    plots = 0
-    if EXTRACTOR_NODE in stages:
-        last = stages[EXTRACTOR_NODE].flush()
-        if len(last.rows):
-            plots = _process(writer, stages, PLOTS_TOPIC, last)
-    tracks = stages[TRACKER_NODE].flush()
-    if len(tracks.rows):
-        writer.write(TRACKS_TOPIC, tracks)
-    return plots
+def _write(writer: BagWriter, messages: Iterable[tuple[str, Content]]) -> None:
+    for topic, content in messages:
+        if isinstance(content, PlatformState):
+            writer.write_odometry(topic, content)
+        else:
+            writer.write(topic, content)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`run_offline`: sweeps become plots and tracks, or plots become tracks, from a bag into a bag, without ROS."""
+"""`run_offline`: sweeps, plots and bearings of a bag become plots, tracks, fused bearings and emitters, without ROS."""
 
 from __future__ import annotations
 
@@ -8,9 +8,8 @@ import dataclasses
 from collections.abc import Iterable
 
 from radar_common.bag import STORAGES
-from radar_common.tables import Table
 from radar_eval.command_line import print_json, progress, run
-from radar_eval.offline import run_offline
+from radar_eval.offline import Content, run_offline
 from radar_eval.run_record import RunRecord
 
 
@@ -28,10 +27,12 @@ def main(argv: list[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="run_offline", description=__doc__)
-    parser.add_argument("bag", help="bag with /radar/sweeps, or else /radar/plots")
+    parser.add_argument(
+        "bag", help="bag with /radar/sweeps, or else /radar/plots, and /passive/bearings"
+    )
     parser.add_argument("--out", required=True, metavar="BAG2", help="bag to write")
     parser.add_argument(
-        "--params", metavar="FILE", help="ROS 2 parameter file for plot_extractor and tracker"
+        "--params", metavar="FILE", help="ROS 2 parameter file with a section for each node"
     )
     parser.add_argument("--storage", choices=sorted(STORAGES), default="mcap")
     parser.add_argument("--json", action="store_true", help="print the summary for machines")
@@ -39,7 +40,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    def shown(messages: Iterable[tuple[str, Table]], total: int) -> Iterable[tuple[str, Table]]:
+    def shown(messages: Iterable[tuple[str, Content]], total: int) -> Iterable[tuple[str, Content]]:
         return progress(messages, "processing", total=total, unit="messages")
 
     record = run_offline(
@@ -68,5 +69,6 @@ def _summary(record: RunRecord) -> list[str]:
             f"  {watch['observed']:>10.4g}  {what} (expected {watch['expected']:.4g})"
             for what, watch in stage.watches.items()
         ]
-    lines.append(f"{record.plots_per_second:.0f} plots/s")
+    if record.plots_per_second > 0.0:
+        lines.append(f"{record.plots_per_second:.0f} plots/s")
     return lines

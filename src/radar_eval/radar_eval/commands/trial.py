@@ -17,7 +17,7 @@ from radar_eval.errors import EvaluationError
 from radar_eval.figures.style import as_png
 from radar_eval.figures.worst_cases import draw_case
 from radar_eval.metrics.per_target import score_targets
-from radar_eval.offline import TRACKER_NODE
+from radar_eval.radar_chain import TRACKER_NODE
 from radar_eval.studies.recording import (
     HALVES,
     Recording,
