@@ -37,7 +37,7 @@ bench: setup
 
 study: setup
 	$(BIN)/pytest -m study
-	HYPOTHESIS_PROFILE=explore $(BIN)/pytest --numprocesses $(WORKERS) -m 'not study'
+	HYPOTHESIS_PROFILE=explore $(BIN)/pytest --numprocesses $(WORKERS)
 
 parameters: setup
 	$(BIN)/python docs/make_parameters.py
