@@ -56,7 +56,7 @@ def test_the_preferred_come_first():
         4.0,
     )
     assert edges.target[assign(edges)].tolist() == [0]
-    assert edges.target[assign(edges, edges.target == 1)].tolist() == [1]
+    assert edges.target[assign(edges, (edges.target == 1).astype(int))].tolist() == [1]
 
 
 def test_north_is_no_border():

@@ -233,3 +233,19 @@ def test_impossible_parameters_are_refused():
         FusionParameters(end_after=1.0)
     with pytest.raises(ParameterError, match="minimum_std"):
         FusionParameters(minimum_std=0.1)
+
+
+def test_a_target_never_heard_takes_no_bearing_of_one_that_it_crosses(
+    channels, flight, run, fusion
+):
+    # Both pass north at 40 s; the finder hears one of them only and tells no identities.
+    heard = flight((-8e3, 30e3), (200.0, 0.0), track=1)
+    mute = flight((8e3, 30e3), (-200.0, 0.0), track=2, heard=(1e9, 1e9))
+    rows, times = run(fusion, channels([heard, mute], end=80.0).messages)
+    columns = fusion._targets.columns
+    assert set(columns["id"].tolist()) == {1, 2}
+    assert np.isfinite(columns["heard"][columns["id"] == 1]).all()
+    assert columns["heard"][columns["id"] == 2, BearingChannel.PASSIVE] == -np.inf
+    for number, truth in ((1, heard), (2, mute)):
+        mine = (rows["id"] == number) & (times > WARM_UP)
+        assert rms(errors(truth, rows[mine], times[mine])) < 0.006

@@ -85,7 +85,7 @@ def gate(targets: Directions, bearings: Directions, sigmas: float) -> Edges:
     return Edges(target[inside], bearing[inside], cost[inside])
 
 
-def assign(edges: Edges, preferred: npt.NDArray[np.bool_] | None = None) -> IndexArray:
+def assign(edges: Edges, rank: npt.NDArray[np.integer] | None = None) -> IndexArray:
     """Choose pairs so that their common likelihood, held against that of the unlikeliest pair, is greatest.
 
     Pairs without a rival are taken as they are. The rest goes to one sparse assignment, in which connected components
@@ -94,7 +94,7 @@ def assign(edges: Edges, preferred: npt.NDArray[np.bool_] | None = None) -> Inde
 
     Args:
         edges: of the gates.
-        preferred: which pairs come first whatever their likelihood, shape (k,); None for none.
+        rank: pairs of a higher one come first whatever their likelihood, shape (k,); None if all are equal.
 
     Returns:
         Indices of the chosen pairs, ascending; no target and no bearing stands in two of them.
@@ -107,8 +107,8 @@ def assign(edges: Edges, preferred: npt.NDArray[np.bool_] | None = None) -> Inde
     if not len(contested):
         return np.arange(len(edges.target))
     gain = edges.cost.max() + 1.0 - edges.cost[contested]
-    if preferred is not None:
-        gain += _FIRST * preferred[contested]
+    if rank is not None:
+        gain += _FIRST * rank[contested]
     chosen = _solve(edges.target[contested], edges.bearing[contested], gain)
     return np.sort(np.concatenate([np.flatnonzero(alone), contested[chosen]]))
 

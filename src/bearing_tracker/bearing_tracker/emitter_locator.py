@@ -181,7 +181,8 @@ class EmitterLocator:
         expected = emitters.expected(free, float(bearings["time"].mean()), observer)
         reported = Directions(bearings["azimuth"], bearings["azimuth_std"])
         edges: Edges = gate(expected, reported, self.parameters.gate_sigmas)
-        chosen = assign(edges, emitters.columns["confirmed"][free][edges.target])
+        confirmed = emitters.columns["confirmed"][free].astype(int)
+        chosen = assign(edges, confirmed[edges.target])
         which[nameless[edges.bearing[chosen]]] = free[edges.target[chosen]]
         return which
 

@@ -67,7 +67,10 @@ def pair(
     partner = columns["partner"][free, channel]
     open_to = (bearings["id"][edges.bearing] == 0) | (partner[edges.target] == 0)
     edges = Edges(edges.target[open_to], edges.bearing[open_to], edges.cost[open_to])
-    chosen = assign(edges, columns["confirmed"][free][edges.target])
+    # Where directions cross, a bearing is of what the channel has lately reported, not of what it has yet to see.
+    lately = look["time"].mean() - columns["heard"][free, channel] <= parameters.end_after
+    rank = columns["confirmed"][free] * (1 + lately)
+    chosen = assign(edges, rank[edges.target])
     row, which = loose[edges.bearing[chosen]], free[edges.target[chosen]]
     target[row] = which
     named = look["id"][row] != 0
