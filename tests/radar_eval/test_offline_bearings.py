@@ -107,7 +107,7 @@ def test_inputs_and_truth_come_along(recorded, processed):
         assert after[topic] == before[topic]
     assert topics(processed, ODOMETRY) == topics(recorded, ODOMETRY)
     stages = RunRecord.read(processed).stages
-    assert set(stages) == {"bag", "tracker", "bearing_fusion", "emitter_locator"}
+    assert set(stages) == {"bag", "bearing_fusion", "emitter_locator"}
     assert stages["bearing_fusion"].counts["fused bearings out"] > 50
 
 

@@ -22,6 +22,7 @@ from radar_eval.figures.life_chart import draw_life_chart
 from radar_eval.figures.over_range import wilson_interval
 from radar_eval.report import write_report
 from radar_eval.run_record import RunRecord, StageRecord
+from radar_eval.whole_bag import WholeBag
 
 RUN = RunRecord(
     5000.0,
@@ -69,7 +70,7 @@ def evaluation(new_world):
 @pytest.fixture(scope="module")
 def report(evaluation, tmp_path_factory):
     folder = tmp_path_factory.mktemp("reports") / "deep" / "report"
-    write_report(evaluation, RUN, Health(), "A <small> world", folder)
+    write_report(WholeBag(evaluation), RUN, Health(), "A <small> world", folder)
     return folder
 
 
@@ -114,13 +115,15 @@ def test_the_scores_are_written_for_machines(report):
 
 
 def test_the_same_bag_gives_the_same_report(report, evaluation, tmp_path):
-    write_report(evaluation, RUN, Health(), "A <small> world", tmp_path / "again")
+    write_report(WholeBag(evaluation), RUN, Health(), "A <small> world", tmp_path / "again")
     for name in ("index.html", "ppi.png", "scores.json"):
         assert (report / name).read_bytes() == (tmp_path / "again" / name).read_bytes()
 
 
 def test_a_bag_without_tracks_can_be_reported(world, tmp_path):
-    write_report(evaluate(world.tables(), ScoreOptions()), None, Health(), "none", tmp_path)
+    write_report(
+        WholeBag(evaluate(world.tables(), ScoreOptions())), None, Health(), "none", tmp_path
+    )
     text = (tmp_path / "index.html").read_text("utf-8")
     assert "Health" not in text
     assert json.loads((tmp_path / "scores.json").read_text("utf-8"))["tracks_per_target"] is None
@@ -139,7 +142,7 @@ def test_false_tracks_have_a_line_of_their_own(world):
 def test_a_report_that_cannot_be_written_is_one_clear_error(evaluation, tmp_path):
     (tmp_path / "file").write_text("in the way", encoding="utf-8")
     with pytest.raises(EvaluationError, match="report"):
-        write_report(evaluation, None, Health(), "none", tmp_path / "file")
+        write_report(WholeBag(evaluation), None, Health(), "none", tmp_path / "file")
 
 
 @given(st.integers(1, 500), st.floats(0.0, 1.0))

@@ -148,7 +148,7 @@ def test_throughput_comes_from_the_run(world):
 
 def test_every_score_has_a_meaning(world):
     scores = scored(world)
-    assert set(scores) == set(MEANINGS)
+    assert set(scores) <= set(MEANINGS)
     assert [row[0] for row in describe_scores(scores)] == list(scores)
 
 

@@ -120,7 +120,7 @@ def lay_out(messages: Mapping[str, Sequence[Table]], health: Health | None = Non
     origin = min(table.stamp for topic in tables for table in tables[topic])
     health = Health() if health is None else health
     plots, tracks, truth = (
-        _flatten(topic, tables[topic], origin, health)
+        flatten(topic, tables[topic], _LAYOUTS[topic], _NEEDED[topic], origin, health)
         for topic in (PLOTS_TOPIC, TRACKS_TOPIC, TRUTH_TOPIC)
     )
     stamps = [(table.stamp - origin) / NANOSECONDS for table in messages_of_plots]
@@ -134,19 +134,37 @@ def lay_out(messages: Mapping[str, Sequence[Table]], health: Health | None = Non
     )
 
 
-def _flatten(topic: str, tables: list[Table], origin: int, health: Health) -> TimedRows:
-    # Rows are copied field by field: a message may carry more fields, in another order.
-    dtype = _LAYOUTS[topic]
-    rows = np.zeros(sum(len(table.rows) for table in tables), dtype)
+def flatten(
+    topic: str,
+    tables: Sequence[Table],
+    layout: np.dtype[np.void],
+    needed: Sequence[str],
+    origin: int,
+    health: Health,
+) -> TimedRows:
+    """Put the messages of a topic together.
+
+    Args:
+        topic: of them.
+        tables: messages.
+        layout: of the rows that are wanted; messages may carry more fields, in another order.
+        needed: fields that must be finite.
+        origin: nanoseconds since the epoch that times refer to.
+        health: counts rows that cannot be used.
+
+    Returns:
+        All rows, in order of time.
+    """
+    rows = np.zeros(sum(len(table.rows) for table in tables), layout)
     time = np.empty(len(rows))
     begin = 0
     for table in tables:
         end = begin + len(table.rows)
-        for name in dtype.names or ():
+        for name in layout.names or ():
             rows[name][begin:end] = table.rows[name]
         time[begin:end] = (table.stamp - origin) / NANOSECONDS + table.rows["time_offset"]
         begin = end
-    good = require_finite(rows, *_NEEDED[topic])
+    good = require_finite(rows, *needed)
     health.drop(f"{topic}: row with a number that is not finite", int(np.sum(~good)))
     rows, time = rows[good], time[good]
     order = np.argsort(time, kind="stable")

@@ -44,12 +44,13 @@ class BearingChain:
         """
         self.stages: dict[str, Stage] = {}
         """By names of the nodes."""
-        self._active = ""
+        self.active = ""
+        """Topic of the active channel; empty without a fusion."""
         if fuse:
             stage = make_stage(BearingFusion, FusionParameters, parameters, FUSION_NODE)
             self.stages[FUSION_NODE] = stage
             plots = stage.pipeline.parameters.active_input == "plots"
-            self._active = PLOTS_TOPIC if plots else TRACKS_TOPIC
+            self.active = PLOTS_TOPIC if plots else TRACKS_TOPIC
         if locate:
             self.stages[LOCATOR_NODE] = make_stage(
                 EmitterLocator, LocatorParameters, parameters, LOCATOR_NODE
@@ -73,7 +74,7 @@ class BearingChain:
                 if len(found.rows):
                     yield EMITTERS_TOPIC, found
             return
-        if fusion is not None and topic in (self._active, BEARINGS_TOPIC):
+        if fusion is not None and topic in (self.active, BEARINGS_TOPIC):
             yield FUSED_BEARINGS_TOPIC, fusion.process(_plain(topic, content))
         if locator is not None and topic == BEARINGS_TOPIC:
             yield EMITTERS_TOPIC, locator.process(_plain(topic, content))

@@ -41,7 +41,6 @@ _LAYOUTS = {
     TRUTH_TOPIC: TRUTH,
     CHANNEL_TRUTH_TOPIC: BEARING,
 }
-_COPIED = (TRACKS_TOPIC, BEARINGS_TOPIC, TRUTH_TOPIC, CHANNEL_TRUTH_TOPIC)
 
 Content = Table | PlatformState
 Progress = Callable[..., Iterable[tuple[str, Content]]]
@@ -60,7 +59,6 @@ class _Run:
             raise EvaluationError(
                 f"bag {bag} holds neither /{SWEEPS_TOPIC} nor /{PLOTS_TOPIC} nor /{BEARINGS_TOPIC}"
             )
-        self.radar = RadarChain(sources[0], parameters) if sources else None
         # A finder without a radar on a moving platform has nothing to fuse.
         active = bool(sources) or tables.get(TRACKS_TOPIC, 0) > 0
         self.finder = BearingChain(
@@ -68,6 +66,9 @@ class _Run:
             locate=bearings and platform,
             parameters=parameters,
         )
+        # Plots that are fused as they are need no tracker.
+        untracked = sources == [PLOTS_TOPIC] and self.finder.active == PLOTS_TOPIC
+        self.radar = RadarChain(sources[0], parameters) if sources and not untracked else None
         self.sources = [*sources, *([BEARINGS_TOPIC] if bearings else [])]
         used = {*sources, TRUTH_TOPIC}
         if bearings:
@@ -85,11 +86,11 @@ class _Run:
 
     def process(self, topic: str, content: Content) -> Iterator[tuple[str, Content]]:
         """Pass a message through all that hear it, and what comes out through all that hear that."""
-        if topic in _COPIED or isinstance(content, PlatformState):
+        if isinstance(content, Table) and self.radar is not None and topic == self.radar.source:
+            yield from self._joined(self.radar.process(content))
+        else:
             yield topic, content
             yield from self.finder.process(topic, content)
-        elif self.radar is not None:
-            yield from self._joined(self.radar.process(content))
 
     def flush(self) -> Iterator[tuple[str, Content]]:
         """Give out what still waits for messages to come."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`score`: the plots and tracks of a bag held against its truth."""
+"""`score`: plots, tracks, fused bearings and emitters of a bag held against its truth."""
 
 from __future__ import annotations
 
@@ -8,12 +8,11 @@ import argparse
 import numpy as np
 
 from radar_common.health import Health
-from radar_eval.bag_tables import load_tables
 from radar_eval.command_line import dropped_lines, print_json, run
-from radar_eval.evaluation import Evaluation, ScoreOptions, evaluate
+from radar_eval.evaluation import ScoreOptions
 from radar_eval.run_record import RunRecord
 from radar_eval.score_names import describe_scores
-from radar_eval.scores import compute_scores
+from radar_eval.whole_bag import WholeBag, evaluate_bag
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -38,7 +37,7 @@ def add_evaluation_arguments(parser: argparse.ArgumentParser) -> None:
         parser: to add to.
     """
     default = ScoreOptions()
-    parser.add_argument("bag", help="bag with /radar/plots, /radar/tracks and /truth")
+    parser.add_argument("bag", help="bag with results and /truth")
     parser.add_argument("--truth", metavar="BAG", help="bag to take /truth from instead")
     parser.add_argument(
         "--gate-range",
@@ -66,7 +65,7 @@ def add_evaluation_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def evaluate_arguments(arguments: argparse.Namespace, health: Health) -> Evaluation:
+def evaluate_arguments(arguments: argparse.Namespace, health: Health) -> WholeBag:
     """Evaluate what the arguments name.
 
     Args:
@@ -74,7 +73,7 @@ def evaluate_arguments(arguments: argparse.Namespace, health: Health) -> Evaluat
         health: counts what was dropped while reading.
 
     Returns:
-        The evaluation.
+        The evaluations.
     """
     options = ScoreOptions(
         gate_range=arguments.gate_range,
@@ -82,14 +81,13 @@ def evaluate_arguments(arguments: argparse.Namespace, health: Health) -> Evaluat
         scan_period=arguments.scan_period,
         gospa_cutoff=arguments.gospa_cutoff,
     )
-    tables = load_tables(arguments.bag, truth_path=arguments.truth, health=health)
-    return evaluate(tables, options)
+    return evaluate_bag(arguments.bag, options, truth_path=arguments.truth, health=health)
 
 
 def _score(arguments: argparse.Namespace) -> int:
     health = Health()
     evaluation = evaluate_arguments(arguments, health)
-    scores = compute_scores(evaluation, RunRecord.read(arguments.bag))
+    scores = evaluation.scores(RunRecord.read(arguments.bag))
     if arguments.json:
         print_json(scores)
     else:

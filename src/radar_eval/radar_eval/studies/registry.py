@@ -11,6 +11,7 @@ from typing import Any
 from radar_eval.errors import EvaluationError
 from radar_eval.studies.channel_fusion import study_channel_fusion
 from radar_eval.studies.clutter import study_clutter
+from radar_eval.studies.countermeasures import study_countermeasures
 from radar_eval.studies.emitter_location import study_emitter_location
 from radar_eval.studies.initiation import study_initiation
 from radar_eval.studies.sensitivity import study_sensitivity
@@ -45,6 +46,11 @@ STUDIES: dict[str, Study] = {
             "clutter",
             "false plots and detected targets in clutter, by normaliser and criterion control",
             study_clutter,
+        ),
+        Study(
+            "countermeasures",
+            "fused bearings against the better of two channels, jammed and silent, at every moment",
+            study_countermeasures,
         ),
         Study(
             "emitter_location",
