@@ -249,3 +249,20 @@ def test_a_target_never_heard_takes_no_bearing_of_one_that_it_crosses(
     for number, truth in ((1, heard), (2, mute)):
         mine = (rows["id"] == number) & (times > WARM_UP)
         assert rms(errors(truth, rows[mine], times[mine])) < 0.006
+
+
+def test_plots_at_other_ranges_do_not_swap_targets_that_cross(flight, start):
+    # One passes slowly behind the other, at errors larger than the angle between them.
+    flights = flight((-4e3, 20e3), (100.0, 0.0)), flight((-7.2e3, 40e3), (180.0, 0.0))
+    random = np.random.default_rng(1)
+    fusion, far = BearingFusion(FusionParameters(active_input="plots")), {}
+    for time in np.arange(0.0, 80.0, 2.0):
+        plots = np.zeros(2, PLOT)
+        plots["azimuth_std"], plots["radial_speed"] = 0.01, np.nan
+        plots["range"] = [np.hypot(*one.at(time)) for one in flights]
+        noise = 0.01 * random.standard_normal(2)
+        plots["azimuth"] = np.mod([one.azimuth(time) for one in flights] + noise, 2 * np.pi)
+        fusion.process(Table(start + round(time * NANOSECONDS), plots))
+        for row in fusion._targets.columns:
+            assert far.setdefault(int(row["id"]), row["range"] > 30e3) == (row["range"] > 30e3)
+    assert sorted(far.values()) == [False, True]

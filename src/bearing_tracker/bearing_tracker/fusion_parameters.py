@@ -51,6 +51,13 @@ class FusionParameters(Parameters):
         low=1.0,
         high=10.0,
     )
+    fastest: float = parameter(
+        600.0,
+        "fastest change of a target's range; a radar's bearing whose range says more than that is another target's",
+        unit="m/s",
+        low=1.0,
+        high=1e6,
+    )
     confirm_hits: int = parameter(
         3, "bearings that a target without a radar track needs to be published", low=1, high=50
     )

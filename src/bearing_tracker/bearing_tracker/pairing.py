@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 IndexArray = npt.NDArray[np.intp]
 Rows = npt.NDArray[np.void]
 
+_ALLOWANCE = 1.0
+"""Seconds of flight that the errors of two ranges may amount to."""
+
 
 def pair(
     targets: FusedTargets, look: Rows, parameters: FusionParameters, health: Health
@@ -66,6 +69,7 @@ def pair(
     # A target that has an identity in this channel takes no bearing of another one.
     partner = columns["partner"][free, channel]
     open_to = (bearings["id"][edges.bearing] == 0) | (partner[edges.target] == 0)
+    open_to &= _reachable(columns[free[edges.target]], bearings[edges.bearing], parameters.fastest)
     edges = Edges(edges.target[open_to], edges.bearing[open_to], edges.cost[open_to])
     # Where directions cross, a bearing is of what the channel has lately reported, not of what it has yet to see.
     lately = look["time"].mean() - columns["heard"][free, channel] <= parameters.end_after
@@ -77,3 +81,9 @@ def pair(
     columns["partner"][which[named], channel] = look["id"][row[named]]
     columns["misfits"][which[named], channel] = 0
     return target
+
+
+def _reachable(targets: Rows, bearings: Rows, fastest: float) -> npt.NDArray[np.bool_]:
+    """Say which bearings may be of their targets by range, where both ranges are known."""
+    seconds = np.abs(bearings["time"] - targets["ranged"]) + _ALLOWANCE
+    return ~(np.abs(bearings["range"] - targets["range"]) > fastest * seconds)
