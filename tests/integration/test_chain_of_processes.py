@@ -95,7 +95,7 @@ def test_a_played_bag_gives_the_tracks_of_the_offline_run(
     ("node", "topic"), [("plot_extractor", PLOTS_TOPIC), ("tracker", TRACKS_TOPIC)]
 )
 def test_a_killed_node_comes_back(node, topic, listener, ros2, spin_until):
-    simulator = ["-p", "scenario:=tiny", "-p", "rate:=8.0", "-p", "wait_for_subscribers:=1"]
+    simulator = ["-p", "scenario:=tiny", "-p", "rate:=4.0", "-p", "wait_for_subscribers:=1"]
     extractor = ["run", "primary_proc", "plot_extractor", *EXTRACTOR]
     tracker = ["run", "secondary_proc", "tracker"]
     killed, other = (extractor, tracker) if node == "plot_extractor" else (tracker, extractor)

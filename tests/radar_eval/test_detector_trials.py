@@ -22,7 +22,7 @@ STRONG_DB = (10.0, 14.0)
 STEEPNESS = (
     0.08  # Of the detection probability at 0.9, a dB, where it is flattest: fast targets and 3/4-2.
 )
-LENGTHS = (9.0, 16.0)
+LENGTHS = (pytest.param(9.0, marks=pytest.mark.study), 16.0)
 
 
 @pytest.fixture(scope="module")

@@ -71,7 +71,7 @@ def test_the_truth_is_the_secondary_position_of_each_aircraft(everything, labels
         assert speed == pytest.approx(label["gs_kt"] * NAUTICAL_MILE / 3600.0, rel=1e-5)
 
 
-@pytest.mark.parametrize("false_plots", [0.0, 200.0])
+@pytest.mark.parametrize("false_plots", [pytest.param(0.0, marks=pytest.mark.study), 200.0])
 def test_real_aircraft_are_tracked_better_than_by_the_simple_tracker(
     command, decoded, tmp_path, false_plots
 ):
