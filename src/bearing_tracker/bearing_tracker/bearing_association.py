@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import min_weight_full_bipartite_matching
 
+from radar_common import assignment
 from radar_common.frames import TWO_PI, wrap_pi, wrap_two_pi
 
 FloatArray = npt.NDArray[np.float64]
@@ -88,10 +87,6 @@ def gate(targets: Directions, bearings: Directions, sigmas: float) -> Edges:
 def assign(edges: Edges, rank: npt.NDArray[np.integer] | None = None) -> IndexArray:
     """Choose pairs so that their common likelihood, held against that of the unlikeliest pair, is greatest.
 
-    Pairs without a rival are taken as they are. The rest goes to one sparse assignment, in which connected components
-    do not meet; a private dummy bearing for each target lets it stay alone. Source: Jonker and Volgenant 1987, as
-    scipy implements it for sparse graphs.
-
     Args:
         edges: of the gates.
         rank: pairs of a higher one come first whatever their likelihood, shape (k,); None if all are equal.
@@ -99,40 +94,7 @@ def assign(edges: Edges, rank: npt.NDArray[np.integer] | None = None) -> IndexAr
     Returns:
         Indices of the chosen pairs, ascending; no target and no bearing stands in two of them.
     """
-    if not len(edges.target):
-        return np.zeros(0, np.intp)
-    on_target, on_bearing = np.bincount(edges.target), np.bincount(edges.bearing)
-    alone = (on_target[edges.target] == 1) & (on_bearing[edges.bearing] == 1)
-    contested = np.flatnonzero(~alone)
-    if not len(contested):
-        return np.arange(len(edges.target))
-    gain = edges.cost.max() + 1.0 - edges.cost[contested]
+    gain = edges.cost.max(initial=0.0) + 1.0 - edges.cost
     if rank is not None:
-        gain += _FIRST * rank[contested]
-    chosen = _solve(edges.target[contested], edges.bearing[contested], gain)
-    return np.sort(np.concatenate([np.flatnonzero(alone), contested[chosen]]))
-
-
-def _solve(target: IndexArray, bearing: IndexArray, gain: FloatArray) -> IndexArray:
-    targets, row = np.unique(target, return_inverse=True)
-    bearings, column = np.unique(bearing, return_inverse=True)
-    count = len(targets)
-    # Only stored weights count, and none may be zero; to stay alone costs more than any pair.
-    highest = float(gain.max()) + 1.0
-    weights = csr_array(
-        (
-            np.concatenate([highest - gain, np.full(count, highest)]),
-            # The solver of SciPy 1.11 takes 32-bit indices only.
-            (
-                np.concatenate([row, np.arange(count)]).astype(np.int32),
-                np.concatenate([column, len(bearings) + np.arange(count)]).astype(np.int32),
-            ),
-        ),
-        shape=(count, len(bearings) + count),
-    )
-    rows, columns = min_weight_full_bipartite_matching(weights)
-    real = columns < len(bearings)
-    key = row * len(bearings) + column
-    order = np.argsort(key)
-    wanted = rows[real] * len(bearings) + columns[real]
-    return order[np.searchsorted(key[order], wanted)]
+        gain += _FIRST * rank
+    return assignment.assign(edges.target, edges.bearing, gain)
