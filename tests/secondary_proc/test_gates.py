@@ -76,7 +76,7 @@ def test_gates_hold_what_brute_force_finds(dense, few, seed, tracks, plots, spre
             old.numbers[:PREDICTED_ROWS],
             new,
             sigmas=SIGMAS,
-            noise_density=DENSITY,
+            noise_density=np.full(tracks, DENSITY),
             shortest=3.0,
         )
     expected = by_brute_force(old, new, 3.0)
@@ -95,7 +95,7 @@ def test_gate_of_no_track_is_empty():
     random = np.random.default_rng(0)
     plots = plots_at(random, 3, 0.0, 1.0, 1e3)
     empty = Columns.zeros(0, np.dtype(float)).numbers[:PREDICTED_ROWS]
-    gated = gate(empty, plots, sigmas=SIGMAS, noise_density=DENSITY, shortest=3.0)
+    gated = gate(empty, plots, sigmas=SIGMAS, noise_density=np.zeros(0), shortest=3.0)
     assert len(gated.track) == 0
 
 

@@ -144,7 +144,7 @@ def test_a_low_score_ends_candidates_when_asked_to(name):
     rule = INITIATIONS[name](replace(PARAMETERS, drop_rule="score", missed_targets=0.05))
     for total, dropped in ((-3.1, True), (-2.9, False)):
         state = rule.opened(np.array([1]))
-        verdict = rule.judge(evidence(rule=state, hits=2, score=total))
+        verdict = rule.judge(evidence(rule=state, found=False, hits=2, score=total))
         assert verdict.dropped[0] == dropped
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from secondary_proc.gating.sharp_turns import usual_first
 from secondary_proc.gating.three_sizes import narrowed
 from secondary_proc.motion import POSITION_TERMS
 from secondary_proc.neighbours import neighbour_pairs
@@ -45,7 +46,12 @@ class Gated:
 
 
 def gate(
-    tracks: FloatArray, plots: Plots, *, sigmas: float, noise_density: float, shortest: float
+    tracks: FloatArray,
+    plots: Plots,
+    *,
+    sigmas: float,
+    noise_density: FloatArray,
+    shortest: float,
 ) -> Gated:
     """Find the plots in each track's gate, every plot at its own time.
 
@@ -53,7 +59,8 @@ def gate(
         tracks: those that the beam may find: the first rows of `Columns.numbers`, up to the time, shape (rows, n).
         plots: of one slice of time, not empty, in order of time.
         sigmas: half axis of the gate in standard deviations.
-        noise_density: power spectral density of the acceleration that the gate stays open for, m^2/s^3.
+        noise_density: power spectral density of the acceleration that each track's gate stays open for, m^2/s^3,
+            shape (n,).
         shortest: seconds that must lie between two plots of a track.
 
     Returns:
@@ -67,7 +74,7 @@ def gate(
             terms[:, :, None],
             plots.values[:, None],
             sigmas,
-            noise_density,
+            noise_density[:, None],
             shortest,
         )
         track, plot = inside.nonzero()
@@ -78,11 +85,62 @@ def gate(
         terms.take(row, axis=1),
         plots.values.take(column, axis=1),
         sigmas,
-        noise_density,
+        noise_density.take(row),
         shortest,
     )
     kept = inside.nonzero()[0]
     return Gated(row[kept], column[kept], distance_squared[kept], determinant[kept], skipped)
+
+
+def usual_gates(
+    gated: Gated,
+    tracks: FloatArray,
+    opened_for: FloatArray,
+    plots: Plots,
+    sigmas: float,
+    noise_density: float,
+) -> Gated:
+    """Let gates of sharp turns count only where no usual gate holds a plot.
+
+    Args:
+        gated: what the gates hold; changed.
+        tracks: as `gate` took them, shape (rows, n).
+        opened_for: noise density of each gate, larger than the usual one in those of sharp turns, m^2/s^3,
+            shape (n,).
+        plots: as `gate` took them.
+        sigmas: half axis of the gates in standard deviations.
+        noise_density: power spectral density of the acceleration in a usual manoeuvre, m^2/s^3.
+
+    Returns:
+        Pairs that are left, those in usual gates with the distance and the determinant of these.
+    """
+    wide = (opened_for[gated.track] > noise_density).nonzero()[0]
+    if not len(wide):
+        return gated
+    pairs = tracks.take(gated.track[wide], axis=1)
+    terms = POSITION_TERMS @ pairs[COVARIANCE]
+    plot = plots.values.take(gated.plot[wide], axis=1)
+    _, shift, error = _difference(pairs, terms, plot, noise_density)
+    distance_squared, determinant = _normalised(shift, error)
+    near = distance_squared <= sigmas**2
+    gated.distance_squared[wide[near]] = distance_squared[near]
+    gated.determinant[wide[near]] = determinant[near]
+    if near.all():
+        return gated
+    usual = np.ones(len(gated.track), bool)
+    usual[wide] = near
+    return _kept(gated, usual_first(gated.track, gated.plot, usual))
+
+
+def _kept(gated: Gated, which: npt.NDArray[np.bool_]) -> Gated:
+    kept = which.nonzero()[0]
+    return Gated(
+        gated.track[kept],
+        gated.plot[kept],
+        gated.distance_squared[kept],
+        gated.determinant[kept],
+        gated.skipped,
+    )
 
 
 def narrow_gates(
@@ -90,7 +148,6 @@ def narrow_gates(
     tracks: FloatArray,
     straight: npt.NDArray[np.bool_],
     plots: Plots,
-    *,
     sigmas: float,
     noise_density: float,
 ) -> Gated:
@@ -115,14 +172,7 @@ def narrow_gates(
     tried = narrowed(gated.track, straight[gated.track], shift.T, error.T.reshape(-1, 2, 2), sigmas)
     gated.distance_squared[tried.narrow] = tried.distance_squared[tried.narrow]
     gated.determinant[tried.narrow] = tried.determinant[tried.narrow]
-    kept = tried.kept.nonzero()[0]
-    return Gated(
-        gated.track[kept],
-        gated.plot[kept],
-        gated.distance_squared[kept],
-        gated.determinant[kept],
-        gated.skipped,
-    )
+    return _kept(gated, tried.kept)
 
 
 def _try(
@@ -130,23 +180,27 @@ def _try(
     terms: FloatArray,
     plots: FloatArray,
     sigmas: float,
-    noise_density: float,
+    noise_density: FloatArray,
     shortest: float,
 ) -> tuple[FloatArray, FloatArray, npt.NDArray[np.bool_]]:
     seconds, shift, error = _difference(tracks, terms, plots, noise_density)
-    xx, xy, _, yy = error
-    determinant = xx * yy - xy * xy
-    # The adjugate times the shift, both components at once: (x yy - y xy, y xx - x xy).
-    turned = shift * error[::-3] - shift[::-1] * xy
-    turned *= shift
-    distance_squared = (turned[0] + turned[1]) / determinant
+    distance_squared, determinant = _normalised(shift, error)
     inside = distance_squared <= sigmas**2
     inside &= seconds >= shortest
     return distance_squared, determinant, inside
 
 
+def _normalised(shift: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]:
+    xx, xy, _, yy = error
+    determinant = xx * yy - xy * xy
+    # The adjugate times the shift, both components at once: (x yy - y xy, y xx - x xy).
+    turned = shift * error[::-3] - shift[::-1] * xy
+    turned *= shift
+    return (turned[0] + turned[1]) / determinant, determinant
+
+
 def _difference(
-    tracks: FloatArray, terms: FloatArray, plots: FloatArray, noise_density: float
+    tracks: FloatArray, terms: FloatArray, plots: FloatArray, noise_density: FloatArray | float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     seconds: FloatArray = plots[TIME] - tracks[TIME_OF_STATE]
     shift: FloatArray = plots[X : Y + 1] - tracks[STATE][:2] - tracks[STATE][2:] * seconds
@@ -155,10 +209,12 @@ def _difference(
     return seconds, shift, error
 
 
-def _predicted(terms: FloatArray, seconds: FloatArray, noise_density: float) -> FloatArray:
+def _predicted(
+    terms: FloatArray, seconds: FloatArray, noise_density: FloatArray | float
+) -> FloatArray:
     # In Horner's form, the spread by white acceleration as the cubic term.
-    cubic = noise_density * _ISOTROPIC.reshape(4, *(1,) * seconds.ndim)
-    predicted: FloatArray = cubic * seconds
+    isotropic = _ISOTROPIC.reshape(4, *(1,) * seconds.ndim)
+    predicted: FloatArray = isotropic * (noise_density * seconds)
     predicted += terms[8:]
     predicted *= seconds
     predicted += terms[4:8]
@@ -168,7 +224,7 @@ def _predicted(terms: FloatArray, seconds: FloatArray, noise_density: float) -> 
 
 
 def _near_pairs(
-    tracks: FloatArray, terms: FloatArray, plots: Plots, sigmas: float, noise_density: float
+    tracks: FloatArray, terms: FloatArray, plots: Plots, sigmas: float, noise_density: FloatArray
 ) -> tuple[IndexArray, IndexArray, int]:
     begin, end = plots.time[0], plots.time[-1]
     velocity = tracks[STATE][2:]

@@ -82,8 +82,8 @@ class TrackerParameters(SmoothingParameters):
     )
     drop_rule: str = parameter(
         "rule",
-        "what ends a tentative track: its rule (for likelihood_ratio these are misses), tentative_misses, or a score "
-        "that has become too low",
+        "what ends a tentative track: its rule (for the tests of likelihood a score that has become too low), "
+        "tentative_misses, or the score",
         choices=DROP_RULES,
     )
     missed_targets: float = parameter(
@@ -107,6 +107,14 @@ class TrackerParameters(SmoothingParameters):
         unit="sigma",
         low=1.0,
         high=10.0,
+    )
+    sharp_turn_rate: float = parameter(
+        0.2,
+        "turns sharper than manoeuvre_acceleration for which gates of confirmed tracks open to plots that no usual "
+        "gate holds; 0 for none",
+        unit="rad/s",
+        low=0.0,
+        high=2.0,
     )
     gate_shape: str = parameter(
         "ellipse",

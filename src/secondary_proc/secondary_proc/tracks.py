@@ -13,11 +13,12 @@ from radar_common.tables import TRACK, EndReason
 from secondary_proc import track_table
 from secondary_proc.association.soft import Contest
 from secondary_proc.detection import DetectionByRange
-from secondary_proc.gates import Gated, gate, narrow_gates
+from secondary_proc.gates import Gated, gate, narrow_gates, usual_gates
+from secondary_proc.gating import SharpTurns
 from secondary_proc.initiation import INITIATIONS
 from secondary_proc.motion import FloatArray, noise_density
 from secondary_proc.opening import opened_tracks
-from secondary_proc.passages import CONFIRMED, ENDED, TENTATIVE, judge, take_misses, take_plots
+from secondary_proc.passages import ENDED, TENTATIVE, judge, take_misses, take_plots
 from secondary_proc.plots import Plots
 from secondary_proc.rotation import Rotation
 from secondary_proc.smoothing import SMOOTHERS
@@ -73,6 +74,7 @@ class Tracks:
         self.period = rotation.period
         self._quiet = noise_density(parameters.acceleration)
         self._manoeuvre = noise_density(parameters.manoeuvre_acceleration)
+        self._sharp = SharpTurns(parameters.sharp_turn_rate, self._manoeuvre, self.period)
         self.initiation = INITIATIONS[parameters.initiation](parameters)
         self._smoother = SMOOTHERS[parameters.smoother](parameters)
         self._store.set_memory(self._smoother.memory)
@@ -144,14 +146,13 @@ class Tracks:
         chosen = expected.nonzero()[0]
         predicted = tracks.numbers[:PREDICTED_ROWS].take(chosen, axis=1)
         sigmas = self._parameters.gate_sigmas
-        gated = gate(
-            predicted, plots, sigmas=sigmas, noise_density=self._manoeuvre, shortest=shortest
-        )
+        confirmed, misses = tracks.status[chosen] != TENTATIVE, tracks.misses[chosen]
+        density = self._sharp.densities(predicted, confirmed, misses)
+        gated = gate(predicted, plots, sigmas=sigmas, noise_density=density, shortest=shortest)
+        gated = usual_gates(gated, predicted, density, plots, sigmas, self._manoeuvre)
         if self._parameters.gate_shape == "three_sizes":
-            straight = (tracks.status[chosen] == CONFIRMED) & (tracks.misses[chosen] == 0)
-            gated = narrow_gates(
-                gated, predicted, straight, plots, sigmas=sigmas, noise_density=self._quiet
-            )
+            straight = confirmed & (misses == 0)
+            gated = narrow_gates(gated, predicted, straight, plots, sigmas, self._quiet)
         gated.track = chosen.take(gated.track)
         self._health.drop("tracks beyond the limit of neighbours", gated.skipped)
         return gated

@@ -12,6 +12,7 @@ from secondary_proc.motion import noise_density, unit_noise
 from secondary_proc.parameters import TrackerParameters
 from secondary_proc.smoothing import SMOOTHERS
 from secondary_proc.smoothing.interacting_models import InteractingModelsSmoother
+from secondary_proc.smoothing.manoeuvre import ManoeuvreDetector
 from secondary_proc.smoothing.motion_models import CoordinatedTurn, UniformMotion
 
 INTERVAL, DURATION = 60.0, 20.0
@@ -20,7 +21,8 @@ QUIET, MANOEUVRE = 0.4, 200.0
 
 def two_models():
     models = [UniformMotion(QUIET), UniformMotion(MANOEUVRE)]
-    return InteractingModelsSmoother(models, 5.0, INTERVAL, DURATION)
+    # No plot is so surprising that the second model is widened.
+    return InteractingModelsSmoother(models, 5.0, INTERVAL, DURATION, ManoeuvreDetector(30.0))
 
 
 def test_it_is_that_of_filterpy_on_the_same_plots(flights, smooth, monkeypatch):
@@ -53,7 +55,8 @@ def test_it_is_that_of_filterpy_on_the_same_plots(flights, smooth, monkeypatch):
 @pytest.mark.parametrize("kinds", [1, 2])
 def test_switching_follows_its_rates_whatever_the_interval(kinds):
     models = [UniformMotion(1.0)] * (kinds + 1)
-    smoother = InteractingModelsSmoother(models, 5.0, INTERVAL, DURATION)
+    detector = ManoeuvreDetector(3.0)
+    smoother = InteractingModelsSmoother(models, 5.0, INTERVAL, DURATION, detector)
     rates = np.zeros((kinds + 1, kinds + 1))
     rates[0, 1:], rates[1:, 0] = 1.0 / INTERVAL / kinds, 1.0 / DURATION
     rates -= np.diag(rates.sum(axis=1))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Confirmation by the running likelihood ratio, set by the rate of false tracks that the user accepts.
 
-Source: Wald 1945, upper bound of the sequential test; Kuzmin 1967, (4.14). Weak candidates end by misses, unless the
-lower bound is asked for, so that a target's track is not lost to one unlucky plot.
+Source: Wald 1945, upper bound of the sequential test; Kuzmin 1967, (4.14). A miss that brings
+the score to the lower bound ends a candidate: a good one lives through more misses than a fixed number would allow.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class LikelihoodRatio:
             parameters: `confirm_hits` are the plots that a track needs at least, `drop_rule` what ends it.
         """
         self._hits = parameters.confirm_hits
-        by_score = parameters.drop_rule == "score"
+        by_score = parameters.drop_rule != "misses"
         self._floor = lowest_score(parameters.missed_targets) if by_score else -inf
         self._misses = inf if by_score else parameters.tentative_misses
         self.longest_gap = parameters.tentative_misses
@@ -57,5 +57,7 @@ class LikelihoodRatio:
             The decision about each.
         """
         sure = (evidence.score >= evidence.threshold) & (evidence.hits >= self._hits)
-        dropped = (evidence.misses >= self._misses) | (evidence.score <= self._floor)
+        dropped = (evidence.misses >= self._misses) | (
+            (evidence.score <= self._floor) & ~evidence.found
+        )
         return Verdict(evidence.rule, evidence.found & sure, dropped)

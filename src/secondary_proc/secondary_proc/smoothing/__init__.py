@@ -52,7 +52,11 @@ SMOOTHERS: dict[str, Callable[[SmoothingParameters], Smoother]] = {
         ManoeuvreDetector(p.manoeuvre_sigmas),
     ),
     "imm": lambda p: InteractingModelsSmoother(
-        _models(p), p.manoeuvre_acceleration, p.manoeuvre_interval, p.manoeuvre_duration
+        _models(p),
+        p.manoeuvre_acceleration,
+        p.manoeuvre_interval,
+        p.manoeuvre_duration,
+        ManoeuvreDetector(p.manoeuvre_sigmas),
     ),
 }
 """Smoothers by name, each made of the parameters."""

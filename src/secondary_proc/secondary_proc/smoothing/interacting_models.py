@@ -14,6 +14,7 @@ import numpy as np
 
 from secondary_proc.motion import FloatArray, inverse_2x2, normalised_square
 from secondary_proc.smoothing.interface import Measured, Smoothed, joseph_update
+from secondary_proc.smoothing.manoeuvre import ManoeuvreDetector
 from secondary_proc.smoothing.motion_models import MotionModel
 
 _LEAST_WEIGHT = 1e-12
@@ -29,6 +30,7 @@ class InteractingModelsSmoother:
         manoeuvre_acceleration: float,
         interval: float,
         duration: float,
+        detector: ManoeuvreDetector,
     ) -> None:
         """Set the models and how they follow each other.
 
@@ -37,6 +39,7 @@ class InteractingModelsSmoother:
             manoeuvre_acceleration: standard deviation of the accelerations in a manoeuvre, m/s^2.
             interval: mean time of quiet flight between manoeuvres, s.
             duration: mean duration of a manoeuvre, s.
+            detector: of plots that even the last model does not explain.
         """
         count, size = len(models), max(model.size for model in models)
         self.memory: np.dtype[Any] = np.dtype(
@@ -48,6 +51,7 @@ class InteractingModelsSmoother:
         )
         self._models = models
         self._size = size
+        self._detector = detector
         self._acceleration = manoeuvre_acceleration
         kinds = count - 1
         self._rate = 1.0 / interval + 1.0 / duration
@@ -93,6 +97,15 @@ class InteractingModelsSmoother:
         expected = spread[:, :2, :2] + error
         innovation = measured.position.repeat(models, axis=0) - state[:, :2]
         square, determinant = normalised_square(innovation, expected)
+        last = slice(models - 1, None, models)
+        sharper = self._detector.declared(square[last], 2).nonzero()[0]
+        if len(sharper):
+            # A turn sharper than the last model allows for: it is widened by as much as it was wrong, lest it claim
+            # to know the velocity.
+            rows = sharper * models + models - 1
+            spread[rows] *= square[rows, None, None]
+            expected[rows] = spread[rows, :2, :2] + error[rows]
+            square[rows], determinant[rows] = normalised_square(innovation[rows], expected[rows])
         gain = spread[:, :, :2] @ inverse_2x2(expected)[0]
         state += (gain @ innovation[:, :, None])[:, :, 0]
         spread[:] = joseph_update(spread, gain, error)
