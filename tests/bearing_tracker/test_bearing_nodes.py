@@ -242,3 +242,60 @@ def test_each_node_declares_every_parameter(context):
         for field in dataclasses.fields(parameters):
             assert node.get_parameter(field.name).value == field.default
         node.destroy_node()
+
+
+@pytest.mark.parametrize("crowd", ["one look", "spread over two seconds"])
+def test_ten_thousand_bearings_in_one_message_stay_within_the_limits(
+    context, executor, observer, make_bearings, start, crowd
+):
+    limit, rows_limit = 200, 9000
+    common = {"maximum_bearings": rows_limit, "maximum_look": 500}
+    settings = {"bearing_fusion": "maximum_targets", "emitter_locator": "maximum_emitters"}
+    nodes = [
+        cls(
+            context=context,
+            parameter_overrides=[
+                Parameter(name, value=value)
+                for name, value in {**common, settings[title]: limit}.items()
+            ],
+        )
+        for title, cls in (
+            ("bearing_fusion", BearingFusionNode),
+            ("emitter_locator", EmitterLocatorNode),
+        )
+    ]
+    for node in nodes:
+        executor.add_node(node)
+    bearings = TablePublisher(observer, BEARINGS_TOPIC)
+    odometry = observer.create_publisher(Odometry, PLATFORM_TOPIC, 10)
+    spin_until(executor, lambda: observer.count_subscribers(BEARINGS_TOPIC) == 2)
+    spin_until(executor, lambda: observer.count_subscribers(PLATFORM_TOPIC) == 1)
+    random = np.random.default_rng(3)
+    rows = make_bearings(
+        random.uniform(0.0, 2 * np.pi, 10_000),
+        identity=random.integers(0, 3, 10_000),
+        time_offset=random.uniform(0.0, 2.0, 10_000) if crowd != "one look" else 0.0,
+    )
+    fusion, locator = (node._health for node in nodes)
+    bearings.publish(Table(start, rows))
+    spin_until(executor, lambda: locator.counts["bearings in"])
+    for second in range(4):
+        state = PlatformState(start + second * NANOSECONDS, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        odometry.publish(encode_odometry(state, ODOMETRY_TYPES))
+    spin_until(executor, lambda: locator.counts["fixes in"] == 4)
+    # A later message tells that the time of the first has passed.
+    bearings.publish(Table(start + 60 * NANOSECONDS, rows[:0]))
+    opened = "targets opened", "emitters opened"
+    spin_until(executor, lambda: fusion.counts[opened[0]] and locator.counts[opened[1]])
+    for health, count, lost in (
+        (fusion, "passive bearings in", "bearings over the limit of targets"),
+        (locator, "bearings in", "bearings over the limit of emitters"),
+    ):
+        assert health.counts[count] == rows_limit
+        assert health.dropped["bearings over the limit of a message"] == 10_000 - rows_limit
+        if crowd == "one look":
+            assert health.dropped["sightings over the limit of a look"] > 1000
+            assert health.dropped["sightings of one identity twice in a look"] > 5000
+            assert health.dropped[lost] > 0
+    assert fusion.counts[opened[0]] - fusion.counts["targets ended"] <= limit
+    assert locator.counts[opened[1]] - locator.counts["emitters ended"] <= limit
