@@ -74,11 +74,11 @@ def draw_channels_over_time(
         above.plot(time, moments.passive, color=_PASSIVE, lw=1.1, label=names[1])
         if better:
             above.plot(
-                time, moments.better, color=INK, lw=1.1, ls=(0, (4, 2)), label="the better of both"
+                time, moments.better, color=INK, lw=1.1, ls=(0, (4, 2)), label="better of both"
             )
         above.plot(time, moments.fused, color=_FUSED, lw=2.2, label="fused")
         above.set(title=title, yscale="log", xlim=(time[0], time[-1]))
-        above.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        above.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 3.0, 5.0)))
         above.yaxis.set_major_formatter("{x:g}")
         above.yaxis.set_minor_locator(NullLocator())
         _legend(above)

@@ -60,7 +60,7 @@ def measure_countermeasures(folder: Path, seeds: Sequence[int], duration: float)
     figure = draw_channels_over_time(
         moments,
         f"Error of the azimuth, rms of {len(seeds)} runs, mrad",
-        ("active channel alone", "passive channel alone"),
+        ("radar alone", "finder alone"),
         better=True,
     )
     (folder / PICTURE).write_bytes(as_png(figure, dpi=120))
