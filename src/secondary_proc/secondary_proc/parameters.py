@@ -74,7 +74,11 @@ class TrackerParameters(SmoothingParameters):
         high=10000.0,
     )
     tentative_misses: int = parameter(
-        2, "scans in a row without a plot that end a tentative track", low=1, high=20
+        2,
+        "scans in a row without a plot that end a tentative track where drop_rule counts them; its first two plots are "
+        "at most so many scans apart",
+        low=1,
+        high=20,
     )
     amplitude_likelihood: bool = parameter(
         False,
