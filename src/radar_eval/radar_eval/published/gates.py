@@ -49,5 +49,5 @@ def _share_inside(sigmas: float) -> float:
     position = generator.multivariate_normal(ahead @ state, total, _SAMPLES)
     plots = Plots.at(np.full(_SAMPLES, seconds), position, np.broadcast_to(error, (_SAMPLES, 2, 2)))
     track = np.concatenate([state, covariance.ravel(), np.zeros(1)])[:, None]
-    gated = gate(track, plots, sigmas=sigmas, noise_density=0.0, shortest=1.0)
+    gated = gate(track, plots, sigmas=sigmas, noise_density=np.zeros(1), shortest=1.0)
     return len(gated.plot) / _SAMPLES
