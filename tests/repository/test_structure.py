@@ -16,14 +16,27 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGES = ["radar_common", "radar_sim", "primary_proc", "secondary_proc", "bearing_tracker", "radar_eval"]
+PACKAGES = [
+    "radar_common",
+    "radar_sim",
+    "primary_proc",
+    "secondary_proc",
+    "bearing_tracker",
+    "radar_eval",
+]
 BELOW = {
     "radar_common": set(),
     "radar_sim": {"radar_common"},
     "primary_proc": {"radar_common"},
     "secondary_proc": {"radar_common"},
     "bearing_tracker": {"radar_common"},
-    "radar_eval": {"radar_common", "radar_sim", "primary_proc", "secondary_proc", "bearing_tracker"},
+    "radar_eval": {
+        "radar_common",
+        "radar_sim",
+        "primary_proc",
+        "secondary_proc",
+        "bearing_tracker",
+    },
 }
 ROS = {"rclpy", "ament_index_python", "launch", "launch_ros"}
 LONGEST_MODULE = 300

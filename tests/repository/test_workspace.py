@@ -12,7 +12,14 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGES = ["radar_common", "radar_sim", "primary_proc", "secondary_proc", "bearing_tracker", "radar_eval"]
+PACKAGES = [
+    "radar_common",
+    "radar_sim",
+    "primary_proc",
+    "secondary_proc",
+    "bearing_tracker",
+    "radar_eval",
+]
 
 
 def test_the_workspace_holds_the_packages_by_a_relative_link():
