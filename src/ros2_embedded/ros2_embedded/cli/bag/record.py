@@ -24,7 +24,8 @@ from ros2_embedded.cli.graph import full_topic_name
 
 _CHECKPOINT_SECONDS = 1.0
 _WAIT_SECONDS = 0.1
-_DRAIN_SECONDS = 1.0
+_DRAIN_SECONDS = 5.0
+_IDLE_ROUNDS, _IDLE_SECONDS = 5, 0.02
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -131,10 +132,12 @@ def _record(
 def _drain(executor: SingleThreadedExecutor, recording: Recording) -> None:
     """Write what has arrived before the end was asked for; publishers know it as delivered."""
     deadline = time.monotonic() + _DRAIN_SECONDS
-    written = -1
-    while written != recording.messages and time.monotonic() < deadline:
+    idle = 0
+    # A round may be spent on something else than a message, or come before the reader has been woken.
+    while idle < _IDLE_ROUNDS and time.monotonic() < deadline:
         written = recording.messages
-        executor.spin_once(timeout_sec=0)
+        executor.spin_once(timeout_sec=_IDLE_SECONDS)
+        idle = idle + 1 if written == recording.messages else 0
 
 
 def _check(args: argparse.Namespace, path: Path) -> str | None:
